@@ -170,7 +170,7 @@ class Includer {
       const std::string* file = child.Find("file");
       if (file == nullptr) {
         throw InputError(child.file + ": line " + std::to_string(child.line) +
-                         ": <include> names no file");
+                         ": <include>: requires the attribute file");
       }
       XmlElement included = Read(folder_ / *file);
       Resolve(included);
@@ -185,7 +185,7 @@ class Includer {
       return other.lexically_normal() == path.lexically_normal();
     };
     if (std::ranges::any_of(files_, is_same)) {
-      throw InputError(path.string() + ": included twice, or recursively");
+      throw InputError(path.string() + ": must be included once, found twice or recursively");
     }
     files_.push_back(path);
     return ParseXml(ReadFile(path), path.string());

@@ -165,13 +165,13 @@ PolygonSoup ReadXyz(std::string_view text, const std::string& name) {
     const std::string what = "point " + std::to_string(cloud.vertices.size());
     Eigen::Vector3d point;
     const auto x = ParseDouble(*word);
-    if (!x) scanner.Fail(what + ": " + Quoted(*word) + " is not a finite number");
+    if (!x) scanner.Fail(what + ": expected a finite number, found " + Quoted(*word));
     point.x() = *x;
     for (const int axis : {1, 2}) {
       const auto next = scanner.NextOnLine();
       if (!next) scanner.Fail(what + ": fewer than three coordinates");
       const auto value = ParseDouble(*next);
-      if (!value) scanner.Fail(what + ": " + Quoted(*next) + " is not a finite number");
+      if (!value) scanner.Fail(what + ": expected a finite number, found " + Quoted(*next));
       point[axis] = *value;
     }
     cloud.vertices.push_back(point);

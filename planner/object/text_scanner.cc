@@ -65,7 +65,7 @@ std::string_view TextScanner::ReadWord(const std::string& what) {
 double TextScanner::ReadDouble(const std::string& what) {
   const std::string_view word = ReadWord(what);
   const auto value = ParseDouble(word);
-  if (!value) Fail(what + ": " + Quoted(word) + " is not a finite number");
+  if (!value) Fail(what + ": expected a finite number, found " + Quoted(word));
   return *value;
 }
 

@@ -235,7 +235,7 @@ class GraspFilesTest(RegraspCase):
                 (["points", "(N, k, 3)", "(400, 12)"], [], {"points": self.points.reshape(400, 12)}),
                 (["normals", "(400, 4, 3)", "(400, 3, 3)"], [],
                  {"points": self.points, "normals": self.normals[:, :3]}),
-                (["points[2, 1, 0]", "not finite"], [], {"points": broken}),
+                (["points[2, 1, 0]", "must be finite, found "], [], {"points": broken}),
                 (["points", "objects"], [], {"points": np.array([None])}),
                 (["points", "U1"], [], {"points": np.array(["x"])}),
                 (["active", "(400, 4)", "(400, 3)"], [],
