@@ -114,7 +114,7 @@ PolygonSoup ReadObj(std::string_view text, const std::string& name) {
     } else if (IsOneOf(kOtherSurfaces, *statement)) {
       scanner.Fail("statement " + Quoted(*statement) + ": not supported, expected facets (\"f\")");
     } else if (!IsOneOf(kIgnored, *statement)) {
-      scanner.Fail(Quoted(*statement) + " is not a statement of OBJ");
+      scanner.Fail("expected a statement of OBJ, found " + Quoted(*statement));
     }
     scanner.SkipLine();
   }

@@ -137,7 +137,7 @@ class HeaderReader {
   Type FindType(const std::string& word) const {
     const auto found = std::ranges::find_if(
         kTypes, [&](const TypeName& type) { return word == type.name || word == type.other_name; });
-    if (found == kTypes.end()) Fail(Quoted(word) + " is not a type of PLY");
+    if (found == kTypes.end()) Fail("expected a type of PLY, found " + Quoted(word));
     return found->type;
   }
 

@@ -61,7 +61,7 @@ std::size_t ReadSize(const std::string& word, const std::string& key, const std:
   constexpr long long kMost = 1'000'000'000;
   const auto value = ParseInteger(word);
   if (value && *value >= 1 && *value <= kMost) return static_cast<std::size_t>(*value);
-  throw InputError(name + ": " + key + ": " + Quoted(word) + " is not a count");
+  throw InputError(name + ": " + key + ": expected a count, found " + Quoted(word));
 }
 
 std::vector<PcdField> ReadFields(const PcdHeader& header, const std::string& name) {

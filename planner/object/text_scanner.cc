@@ -72,7 +72,7 @@ double TextScanner::ReadDouble(const std::string& what) {
 long long TextScanner::ReadInteger(const std::string& what) {
   const std::string_view word = ReadWord(what);
   const auto value = ParseInteger(word);
-  if (!value) Fail(what + ": " + Quoted(word) + " is not an integer");
+  if (!value) Fail(what + ": expected an integer, found " + Quoted(word));
   return *value;
 }
 

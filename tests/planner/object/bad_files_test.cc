@@ -51,7 +51,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"float_count.ply", "line 8: a list whose length is not an integer"},
     {"float_indices.ply", "lacks an integer list"},
     {"four_corners.stl", "line 7: \"vertex\", expected \"endloop\""},
-    {"fraction_count.off", "line 2: the number of vertices: \"4.5\" is not an integer"},
+    {"fraction_count.off", "line 2: the number of vertices: expected an integer, found \"4.5\""},
     {"fraction_index.ply", "facet 3: \"2.5\" is not"},
     {"huge.obj", "vertex 2: the coordinate 1e+16"},
     {"huge_count.stl", "expected 214748364834 bytes for 4294967295 facets, found 284 bytes"},
