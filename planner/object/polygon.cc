@@ -216,8 +216,8 @@ void CheckPoints(const std::vector<Vector2d>& ring, int index, const std::string
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (const double x : ring[i]) {
       if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
-      fail(i, "coordinates must be finite and of size at most " + FormatDouble(kMaxCoordinate) +
-                  ", found " + FormatDouble(x));
+      fail(i, "the coordinate " + FormatDouble(x) + " must be finite and of size at most " +
+                  FormatDouble(kMaxCoordinate));
     }
   }
   std::vector<std::size_t> order(ring.size());

@@ -45,10 +45,10 @@ void CheckIndex(const PolygonSoup& soup, std::size_t facet, int index, const std
 void CheckCoordinates(const Eigen::Vector3d& vertex, int index, const std::string& name) {
   for (const double x : vertex) {
     if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
-    throw MeshError(MeshDefect::kNotFinite,
-                    name + ": vertex " + std::to_string(index) +
-                        ": coordinates must be finite and of size at most " +
-                        FormatDouble(kMaxCoordinate) + ", found " + FormatDouble(x));
+    throw MeshError(MeshDefect::kNotFinite, name + ": vertex " + std::to_string(index) +
+                                                ": the coordinate " + FormatDouble(x) +
+                                                " must be finite and of size at most " +
+                                                FormatDouble(kMaxCoordinate));
   }
 }
 

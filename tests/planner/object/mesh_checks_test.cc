@@ -39,7 +39,7 @@ std::vector<Spoilt> SpoiltCubes() {
       {"no facets", MeshDefect::kEmpty, "no facet", [](PolygonSoup& s) { s.facets.clear(); }},
       {"NaN", MeshDefect::kNotFinite, "vertex 5: the coordinate nan",
        [=](PolygonSoup& s) { s.vertices[5].y() = nan; }},
-      {"infinite", MeshDefect::kNotFinite, "vertex 2: coordinates must be finite and",
+      {"infinite", MeshDefect::kNotFinite, "vertex 2: the coordinate -inf",
        [=](PolygonSoup& s) { s.vertices[2].z() = -inf; }},
       {"beyond range", MeshDefect::kNotFinite, "vertex 2: the coordinate 2e+15",
        [](PolygonSoup& s) { s.vertices[2].x() = 2e15; }},
