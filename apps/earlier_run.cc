@@ -100,7 +100,7 @@ bool HasSameRun(const ValidateOptions& options) {
   }
 }
 
-std::set<std::string> OwnResults(const HeldFolder& folder) {
+std::set<std::string> OwnResults(const LockedOutputFolder& folder) {
   std::set<std::string> own;
   for (const std::string& name : folder.left_behind()) {
     if (IsValidationFile(name)) own.insert(name);
@@ -112,7 +112,7 @@ std::set<std::string> OwnResults(const HeldFolder& folder) {
   return own;
 }
 
-std::set<std::string> OwnSummary(const HeldFolder& folder) {
+std::set<std::string> OwnSummary(const LockedOutputFolder& folder) {
   std::set<std::string> own;
   for (const char* name : {kSummaryName, kIndexName}) {
     if (folder.left_behind().contains(name)) own.insert(name);
@@ -124,7 +124,7 @@ std::set<std::string> OwnSummary(const HeldFolder& folder) {
   return own;
 }
 
-void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
+void ExpectFree(const LockedOutputFolder& folder, const std::set<std::string>& own,
                 const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const fs::path path = folder.path() / name;
@@ -139,7 +139,7 @@ void ExpectFree(const HeldFolder& folder, const std::set<std::string>& own,
   }
 }
 
-void RemoveEarlierRun(HeldFolder& folder, const std::set<std::string>& own) {
+void RemoveEarlierRun(LockedOutputFolder& folder, const std::set<std::string>& own) {
   if (own.empty()) return;
   folder.Announce({own.begin(), own.end()});
   std::vector<fs::path> files;

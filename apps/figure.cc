@@ -83,7 +83,7 @@ struct FigureProgram {
   void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const;
   void CheckOut() const;
   [[nodiscard]] object::ObjectFile ReadTold(const plan::Plan& plan) const;
-  [[nodiscard]] plan::Plan Located(const plan::Plan& plan, const object::Object& object) const;
+  [[nodiscard]] plan::Plan Projected(const plan::Plan& plan, const object::Object& object) const;
   void CheckHasContactSpace(const plan::Plan& plan) const;
   void WriteFigures(const object::Object& object, const plan::Plan& plan) const;
   void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
@@ -151,7 +151,7 @@ void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFi
   apps::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
 }
 
-plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& object) const {
+plan::Plan FigureProgram::Projected(const plan::Plan& plan, const object::Object& object) const {
   ProgressLine progress(quiet);
   progress.Report("checking the plan");
   const plan::PlanCheck check = plan::CheckPlan(object, plan);
@@ -160,7 +160,7 @@ plan::Plan FigureProgram::Located(const plan::Plan& plan, const object::Object& 
     throw InputError(plan_path + ": step " + std::to_string(step.index) + " (" + step.kind +
                      "): " + std::string(plan::ReasonName(step.reason)) + ": " + step.detail);
   }
-  return check.located;
+  return check.projected;
 }
 
 /// Return whether a name is one that an earlier run may have written.
@@ -321,9 +321,9 @@ int FigureProgram::Run() {
   const plan::Plan plan = plan::ReadPlan(plan_path);
   const object::ObjectFile object = ReadTold(plan);
   CheckPlanFits(plan, object);
-  const plan::Plan located = Located(plan, *object.object);
-  if (contact_space) CheckHasContactSpace(located);
-  WriteFigures(*object.object, located);
+  const plan::Plan projected = Projected(plan, *object.object);
+  if (contact_space) CheckHasContactSpace(projected);
+  WriteFigures(*object.object, projected);
   return kExitDone;
 }
 

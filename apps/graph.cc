@@ -99,7 +99,7 @@ std::string GraphProgram::Title(const planning::Planner& planner,
                                 const std::string& object) const {
   std::string title = planner.name() + " of " + object + ", " + std::to_string(summary.faces) +
                       " " + summary.face_name + ", " +
-                      FormatShort(Degrees(common.friction.required_half_angle())) + "°";
+                      FormatShort(Degrees(common.friction.required_friction_angle())) + "°";
   const auto& options = planner.traits().options;
   if (std::ranges::find(options, sets::kUniformSpanningOption) != options.end()) {
     title += common.spanning == planning::Spanning::kUniform ? ", uniform" : ", adaptive";
@@ -122,7 +122,7 @@ int GraphProgram::Run() const {
   request.parameters.Edit<polyhedron::PolyhedronParameters>().focus_points = focus_points;
   const planning::Planner& planner = common.PlannerFor(request);
   const planning::GraphSummary summary = Summarize(planner, request);
-  const std::string text = FormatJson(GraphJson(summary, request.criteria.half_angle));
+  const std::string text = FormatJson(GraphJson(summary, request.criteria.friction_angle));
   if (json == "-") {
     std::cout << text;
     return kExitDone;

@@ -41,7 +41,7 @@ std::string QueryText(const planning::QuerySummary& queries) {
 
 }  // namespace
 
-Json GraphJson(const planning::GraphSummary& summary, double half_angle) {
+Json GraphJson(const planning::GraphSummary& summary, double friction_angle) {
   Json types = Json::object();
   for (const planning::TypeSummary& type : summary.types) {
     types[type.name] = {{"candidates", type.candidates},
@@ -55,7 +55,7 @@ Json GraphJson(const planning::GraphSummary& summary, double half_angle) {
       {"format", "regrasp-graph"},
       {"version", 1},
       {"planner", summary.planner},
-      {"friction", {{"half_angle_deg", Degrees(half_angle)}}},
+      {"friction", {{"half_angle_deg", Degrees(friction_angle)}}},
       {"faces", summary.faces},
       {"types", types},
       {"edges", edges},

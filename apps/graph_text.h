@@ -8,7 +8,7 @@
 namespace regrasp::apps {
 
 /// Return the contents of a graph file (docs/formats.md).
-[[nodiscard]] Json GraphJson(const planning::GraphSummary& summary, double half_angle);
+[[nodiscard]] Json GraphJson(const planning::GraphSummary& summary, double friction_angle);
 
 /// Return the text that `graph` prints.
 /// It has tables of grasps and finger switches, times, and the additional values of the request.

@@ -23,7 +23,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/judge_grasps.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/surface_tolerance.h"
 #include "sim/validation/validation.h"
 
@@ -77,23 +77,23 @@ void NoteOffSurface(const GraspGroup& group, std::size_t i, int contact, Verdict
 }
 
 PlacedGrasps Place(const object::Object& object, const GraspGroup& group, Verdicts& verdicts) {
-  const plan::LocatedGrasps located =
-      plan::LocateGrasps(object, group.points, group.normals, group.contacts);
+  const plan::ProjectedGrasps projected =
+      plan::ProjectGrasps(object, group.points, group.normals, group.contacts);
   const auto values = 3 * static_cast<std::size_t>(group.contacts);
   PlacedGrasps placed;
   for (std::size_t i = 0; i < group.places.size(); ++i) {
-    verdicts.reason[group.places[i]] = static_cast<double>(located.reasons[i]);
-    if (located.reasons[i] == plan::Reason::kOffSurface) {
-      NoteOffSurface(group, i, located.contacts[i], verdicts);
+    verdicts.reason[group.places[i]] = static_cast<double>(projected.reasons[i]);
+    if (projected.reasons[i] == plan::Reason::kOffSurface) {
+      NoteOffSurface(group, i, projected.contacts[i], verdicts);
     }
-    if (located.reasons[i] != plan::Reason::kNone) continue;
+    if (projected.reasons[i] != plan::Reason::kNone) continue;
     placed.places.push_back(group.places[i]);
     const auto begin = static_cast<std::ptrdiff_t>(i * values);
     const auto end = begin + static_cast<std::ptrdiff_t>(values);
-    placed.points.insert(placed.points.end(), located.points.begin() + begin,
-                         located.points.begin() + end);
-    placed.normals.insert(placed.normals.end(), located.normals.begin() + begin,
-                          located.normals.begin() + end);
+    placed.points.insert(placed.points.end(), projected.points.begin() + begin,
+                         projected.points.begin() + end);
+    placed.normals.insert(placed.normals.end(), projected.normals.begin() + begin,
+                          projected.normals.begin() + end);
   }
   return placed;
 }
@@ -101,10 +101,10 @@ PlacedGrasps Place(const object::Object& object, const GraspGroup& group, Verdic
 void Judge(const object::Object& object, const PlacedGrasps& placed, int contacts,
            const ValidateOptions& options, Verdicts& verdicts) {
   grasp::JudgeOptions judge;
-  judge.half_angle = options.friction.required_half_angle();
+  judge.friction_angle = options.friction.required_friction_angle();
   judge.frame = object.wrench_frame();
   judge.torsion = options.contact.torsion().value_or(0);
-  judge.required_half_angle = options.required_angle;
+  judge.required_friction_angle = options.required_angle;
   judge.quality = options.quality;
   const grasp::GraspVerdicts found =
       grasp::JudgeGrasps({placed.points, placed.normals, contacts}, judge);
@@ -115,7 +115,8 @@ void Judge(const object::Object& object, const PlacedGrasps& placed, int contact
     verdicts.valid[g] = verdicts.is_force_closure[g];
     verdicts.too_close[g] = decision == grasp::Decision::kTooClose ? 1 : 0;
     verdicts.margin[g] = found.force_closure[i].margin_lower;
-    if (options.required_angle) verdicts.required_deg[g] = Degrees(found.required_half_angle[i]);
+    if (options.required_angle)
+      verdicts.required_deg[g] = Degrees(found.required_friction_angle[i]);
     if (options.quality) verdicts.quality[g] = found.quality[i];
     if (decision != grasp::Decision::kYes) {
       verdicts.reason[g] = static_cast<double>(plan::Reason::kNotForceClosure);
@@ -149,7 +150,7 @@ void Replay(const object::Object& object, const PlacedGrasps& placed, int contac
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t g = placed.places[held[k]];
       const plan::Plan hold = validation::MakeHoldPlan(object, GraspAt(placed, contacts, held[k]),
-                                                       options.friction.required_half_angle(),
+                                                       options.friction.required_friction_angle(),
                                                        options.scale.value_or(1));
       const validation::Report report =
           validation::Validate({.object = object, .plan = hold, .options = given}).report;

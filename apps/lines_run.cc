@@ -42,9 +42,9 @@ int ExitCodeOf(Outcome outcome, const std::string& content) {
   return kExitEnvironment;
 }
 
-int ExitCodeOf(const Tally& tally, const std::string& content) {
+int ExitCodeOf(const OutcomeCounts& counts, const std::string& content) {
   int worst = kExitDone;
-  for (const auto& [outcome, count] : tally) worst = std::max(worst, ExitCodeOf(outcome, content));
+  for (const auto& [outcome, count] : counts) worst = std::max(worst, ExitCodeOf(outcome, content));
   return worst;
 }
 
@@ -78,7 +78,7 @@ int RunLinesFile(const LinesRun& run) {
   ProgressLog log(run.program, run.quiet);
   Messages messages(run, progress);
   int stop = 0;
-  Tally tally;
+  OutcomeCounts counts;
   std::int64_t kept = 0;
   {
     LinesOutput output(run.output, header, run.fresh);
@@ -94,7 +94,7 @@ int RunLinesFile(const LinesRun& run) {
                     {run.jobs, run.time_limit_s,
                      [&](const std::string& message) { messages.Print(message); }, tell});
     if (stop == 0) output.Finish();
-    tally = output.tally();
+    counts = output.counts();
     kept = output.kept();
   }
   progress.Clear();
@@ -104,11 +104,11 @@ int RunLinesFile(const LinesRun& run) {
   if (stop != 0) return kSignalled + stop;
   if (!run.quiet) {
     PrintMessage(run.program,
-                 run.output.string() + ": " + TallyText(tally) +
+                 run.output.string() + ": " + OutcomeCountsText(counts) +
                      (kept > 0 ? "; " + std::to_string(kept) + " kept from an earlier run" : "") +
                      "; " + FormatShort(watch.Lap(), 2) + " s");
   }
-  return ExitCodeOf(tally, run.content);
+  return ExitCodeOf(counts, run.content);
 }
 
 std::string GuardLine(const Line& line, const std::function<std::string()>& work) {

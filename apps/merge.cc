@@ -60,8 +60,8 @@ int MergeProgram::Run() const {
   }
   const std::vector<ShardFile> found = FindShards({shards.begin(), shards.end()});
   CheckOutputsWritable(outputs);
-  const Tally tally = MergeLines(found, output, fresh);
-  if (!quiet) PrintMessage(kProgram, output + ": " + TallyText(tally));
+  const OutcomeCounts counts = MergeLines(found, output, fresh);
+  if (!quiet) PrintMessage(kProgram, output + ": " + OutcomeCountsText(counts));
   return kExitDone;
 }
 

@@ -118,7 +118,7 @@ void FrictionOptions::AddTo(CLI::App& app) {
             "Friction coefficient, the tangent of the friction angle. Replaces --friction-angle");
 }
 
-std::optional<double> FrictionOptions::half_angle() const {
+std::optional<double> FrictionOptions::friction_angle() const {
   if (degrees_ && mu_) throw InputError("--friction-angle: cannot be used with --mu");
   if (!degrees_ && !mu_) return std::nullopt;
   const double angle = degrees_ ? Radians(*degrees_) : std::atan(*mu_);
@@ -141,8 +141,8 @@ std::string FrictionOptions::warning() const {
          "with --friction-angle";
 }
 
-double FrictionOptions::required_half_angle() const {
-  const std::optional<double> angle = half_angle();
+double FrictionOptions::required_friction_angle() const {
+  const std::optional<double> angle = friction_angle();
   if (!angle) throw InputError("friction: --friction-angle DEG or --mu X is required");
   return *angle;
 }

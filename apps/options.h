@@ -116,11 +116,11 @@ class FrictionOptions {
 
   /// Friction angle in radians; nullopt if neither option is given.
   /// @throws InputError  if both are given, or the angle is not inside (0°, 90°) as a double.
-  [[nodiscard]] std::optional<double> half_angle() const;
+  [[nodiscard]] std::optional<double> friction_angle() const;
 
   /// Friction angle in radians.
-  /// @throws InputError  as half_angle, or if neither option is given.
-  [[nodiscard]] double required_half_angle() const;
+  /// @throws InputError  as friction_angle, or if neither option is given.
+  [[nodiscard]] double required_friction_angle() const;
 
   /// Warning about an implausible coefficient; otherwise empty.
   [[nodiscard]] std::string warning() const;

@@ -74,9 +74,10 @@ void PrintSummary(const PlannerOptions& common, const FinishedPlan& finished) {
     planner += " of " + std::to_string(note->clusters) + " clusters (start: " + note->start +
                ", goal: " + note->goal + ")";
   }
-  PrintMessage(kPlanName, planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
-                              plan::WeakestStepText(finished.check.steps, result.plan->half_angle) +
-                              "; " + FormatShort(time.count(), 2) + " s");
+  PrintMessage(kPlanName,
+               planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
+                   plan::WeakestStepText(finished.check.steps, result.plan->friction_angle) + "; " +
+                   FormatShort(time.count(), 2) + " s");
   for (const std::string& note : result.notes) PrintMessage(kPlanName, note);
 }
 
@@ -125,7 +126,7 @@ int RunOne(PlanProgram program) {
     return kExitNegative;
   }
   if (given) {
-    const double off = plan::FarthestFromPoints(finished.check.located, *given) * common.scale;
+    const double off = plan::FarthestFromPoints(finished.check.projected, *given) * common.scale;
     result.notes.push_back("contacts: at given points, at most " + FormatLength(off) + " off");
   }
   const std::string text = plan::FormatPlan(*result.plan);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/batch/inputs_digest.h"
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 #include "apps/build_id.h"
 #include "apps/lines_run.h"
 #include "apps/nearest_word.h"
@@ -219,7 +219,7 @@ class PlanLines {
     common.begin = std::chrono::steady_clock::now();
     common.object = finder_.Find(query.object_name, query.object_sha256, line.name);
     SharedObject object =
-        shelf_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
+        object_cache_.Get(common.object, [&] { return common.ReadObjectFile(kPlanName); });
     if (!query.object_sha256.empty() && object->sha256 != query.object_sha256 &&
         !(object->repair && object->repair->sha256 == query.object_sha256)) {
       throw InputError(line.name + ": /object/sha256: the query is for another file, expected " +
@@ -258,7 +258,7 @@ class PlanLines {
 
   PlanProgram program_;
   ObjectFinder finder_;
-  ObjectShelf shelf_;
+  ObjectCache object_cache_;
   std::string common_;  ///< digest of all that the results of all queries depend on
 };
 

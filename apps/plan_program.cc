@@ -202,19 +202,20 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
   planning::PlanResult& result = finished.result;
   if (!result.plan) return finished;
   if (result.plan->roadmap) common.NotePlaces(*result.plan->roadmap);
-  finished.check = certificate::FinishPlan(object,
-                                           {.half_angle = common.friction.required_half_angle(),
-                                            .scale = common.scale,
-                                            .shells = common.repair.shells(),
-                                            .patch_radius = common.PatchRadius(*object.object),
-                                            .given_points = given ? &*given : nullptr},
-                                           *result.plan);
+  finished.check =
+      certificate::FinishPlan(object,
+                              {.friction_angle = common.friction.required_friction_angle(),
+                               .scale = common.scale,
+                               .shells = common.repair.shells(),
+                               .patch_radius = common.PatchRadius(*object.object),
+                               .given_points = given ? &*given : nullptr},
+                              *result.plan);
   if (!finished.check.passed()) result.warnings.push_back(CheckerComplaint(finished.check));
   if (hand_file) {
     for (const std::string& warning : hand_file->warnings)
       result.warnings.push_back(hand.hand + ": " + warning);
   }
-  result.warnings.push_back(plan::InventedContactsWarning(*object.object, finished.check.located));
+  result.warnings.push_back(plan::FilledContactsWarning(*object.object, finished.check.projected));
   return finished;
 }
 

@@ -111,7 +111,7 @@ void PlannerOptions::AddTo(CLI::App& app, Purpose purpose) {
             "construction stop then, so plans depend on the machine",
             "S");
   ListOption("--allow")
-      .Word("filled", [this] { allow_invented = true; })
+      .Word("filled", [this] { allow_filled = true; })
       .Word("large-graph", [this] { force = true; })
       .AddTo(app, "WORD,…",
              "Exceptions to permit.\nfilled: contacts on surface that a repair filled in\n"
@@ -159,7 +159,7 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   planning::PlanRequest request;
   request.object = &of;
   request.object_name = object;
-  request.criteria.half_angle = PlannedHalfAngle();
+  request.criteria.friction_angle = PlannedFrictionAngle();
   request.hand.torsion = contact.torsion().value_or(0);
   request.seed = seed;
   request.deadline = deadline();
@@ -184,18 +184,18 @@ std::optional<double> PlannerOptions::PatchRadius(const object::Object& of) cons
 
 void PlannerOptions::NotePlaces(plan::RoadmapNote& note) const {
   if (patch_felt()) note.roughness = patch_felt()->most_angle;
-  note.allow_invented = allow_invented;
+  note.allow_filled = allow_filled;
 }
 
-double PlannerOptions::PlannedHalfAngle() const {
-  const double half_angle = friction.required_half_angle();
-  if (!patch_felt()) return half_angle;
+double PlannerOptions::PlannedFrictionAngle() const {
+  const double friction_angle = friction.required_friction_angle();
+  if (!patch_felt()) return friction_angle;
   // The friction cone about a triangle's normal is narrowed by the angle to the normal of the
   // contact patch. It is then inside the friction cone about the normal of the contact patch.
-  const double planned = half_angle - Radians(roughness_deg);
+  const double planned = friction_angle - Radians(roughness_deg);
   if (planned > 0) return planned;
   throw InputError("--patch roughness: must be less than the friction angle, " +
-                   FormatShort(Degrees(half_angle)) + "°, found " + FormatShort(roughness_deg) +
+                   FormatShort(Degrees(friction_angle)) + "°, found " + FormatShort(roughness_deg) +
                    "°");
 }
 
@@ -205,7 +205,7 @@ Deadline PlannerOptions::deadline() const {
 
 object::ObjectFile PlannerOptions::ReadObjectFile(const std::string& program) const {
   ProgressLine progress(quiet);
-  object::Reading reading{progress.reporter(), deadline(), patch_felt(), allow_invented};
+  object::Reading reading{progress.reporter(), deadline(), patch_felt(), allow_filled};
   reading.shells = repair.shells();
   reading.on_shells = [&](const std::string& text) {
     progress.Clear();

@@ -27,7 +27,7 @@ struct PlannerOptions {
       /// contact patch radius, object units; 0: none, nullopt: default
       patch;
   double roughness_deg = 5;
-  bool allow_invented = false;  ///< whether contacts may be on filled surfaces
+  bool allow_filled = false;  ///< whether contacts may be on filled surfaces
   FrictionOptions friction;
   ContactOptions contact;
   std::string planner = "auto";
@@ -82,7 +82,7 @@ struct PlannerOptions {
  private:
   void AddPlanner(CLI::App& app, Purpose purpose);
   /// Friction angle minus the roughness, radians.
-  [[nodiscard]] double PlannedHalfAngle() const;
+  [[nodiscard]] double PlannedFrictionAngle() const;
   [[nodiscard]] Deadline deadline() const;
 };
 

@@ -54,10 +54,10 @@ StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress
                      ": --export-states requires a hand with at least 3 fingers, found " +
                      std::to_string(task.hand.hand.fingers.size()));
   }
-  task.states.half_angle = options.friction.required_half_angle();
+  task.states.friction_angle = options.friction.required_friction_angle();
   task.request.scale = options.scale.value_or(1);
   task.request.margin = options.clearance_m;
-  task.request.criteria = {task.states.half_angle, options.min_quality};
+  task.request.criteria = {task.states.friction_angle, options.min_quality};
   const object::BodyMeasures body =
       sim::BodyOf(*task.object.object, task.request.scale, options.replay);
   task.doubts = {object::SizeWarning(body, task.request.scale), options.friction.warning()};
@@ -65,7 +65,7 @@ StatesTask ReadStatesTask(const ValidateOptions& options, ProgressLine& progress
     task.doubts.push_back(options.hand + ": " + warning);
   }
   task.states.mass_kg = body.mass_kg;
-  task.states.squeeze_N = options.replay.squeeze_N;
+  task.states.grasp_force_N = options.replay.grasp_force_N;
   task.states.tolerance = options.tolerance;
   return task;
 }
@@ -127,11 +127,11 @@ void WriteStates(const ValidateOptions& options, const StatesTask& task,
                 {task.object.file, task.object.sha256, task.request.scale, options.trials.seed}));
   if (options.mjcf.empty()) return;
   const sim::ResetState& first = drawn.states.front();
-  WriteSceneFolder(
-      options.mjcf,
-      sim::ExportHandScene(task.hand, *task.solid, task.request.scale,
-                           {std::tan(task.states.half_angle), task.states.mass_kg, sim::kGravity},
-                           {{"state 0", 0, first.qpos, first.controls}}));
+  WriteSceneFolder(options.mjcf,
+                   sim::ExportHandScene(
+                       task.hand, *task.solid, task.request.scale,
+                       {std::tan(task.states.friction_angle), task.states.mass_kg, sim::kGravity},
+                       {{"state 0", 0, first.qpos, first.controls}}));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "apps/batch/process_pool.h"
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
-#include "apps/held_folder.h"
+#include "apps/locked_output_folder.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -49,7 +49,7 @@ int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path
   return RunGuarded(kValidateName, [&] {
     if (!options.fresh && HasSameRun(options)) return kExitKept;
     {
-      HeldFolder results(options.out);
+      LockedOutputFolder results(options.out);
       RemoveEarlierRun(results, OwnResults(results));
     }
     const ValidationRun run = RunValidation(options);
@@ -250,7 +250,7 @@ class Batch {
 
   const ValidateOptions& options_;
   PlanLibrary library_;
-  HeldFolder folder_;
+  LockedOutputFolder folder_;
   ProgressLine progress_;
   ProgressLog log_;
   BatchSummary summary_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/batch/inputs_digest.h"
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 #include "apps/batch/report_summary.h"
 #include "apps/earlier_run.h"
 #include "apps/lines_run.h"

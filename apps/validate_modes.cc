@@ -72,7 +72,7 @@ void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
       throw InputError(std::string(setting) + ": cannot be used with --grasps");
     }
   }
-  if (options.replay.stress) {
+  if (options.replay.resisted_wrench) {
     throw InputError("--disturbance limits: cannot be used with --grasps");
   }
   if (options.replay_grasps) return;
@@ -97,7 +97,7 @@ void CheckForStates(const ValidateOptions& options, const CLI::App& app) {
     throw InputError("--tolerance: with --export-states requires the unit mm or deg");
   }
   if (options.hand.empty()) throw InputError("--export-states: requires --hand");
-  if (options.replay.hand_squeeze) {
+  if (options.replay.hand_grasp_force) {
     throw InputError("--grasp-force realistic: cannot be used with --export-states");
   }
 }

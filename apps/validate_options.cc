@@ -141,9 +141,9 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
 
 void AddGraspForce(CLI::App& app, sim::ReplayOptions& replay) {
   const auto parse = [&replay](const std::string& text) {
-    replay.hand_squeeze = text == "realistic";
-    if (!replay.hand_squeeze) {
-      replay.squeeze_N = ParseNumber("--grasp-force", text, NumberRange::Positive());
+    replay.hand_grasp_force = text == "realistic";
+    if (!replay.hand_grasp_force) {
+      replay.grasp_force_N = ParseNumber("--grasp-force", text, NumberRange::Positive());
     }
   };
   app.add_option_function<std::string>(
@@ -156,8 +156,9 @@ void AddGraspForce(CLI::App& app, sim::ReplayOptions& replay) {
 
 void AddDisturbance(CLI::App& app, ValidateOptions& options) {
   ListOption("--disturbance")
-      .Values("a number", {NumberParser(options.replay.shake, NumberRange::NotNegative())})
-      .Word("limits", [&options] { options.replay.stress = true; })
+      .Values("a number",
+              {NumberParser(options.replay.disturbance_ratio, NumberRange::NotNegative())})
+      .Word("limits", [&options] { options.replay.resisted_wrench = true; })
       .AddTo(app, "RHO[,limits]",
              "Size of the disturbance test. Force over grasp force, and torque over grasp force "
              "times half the diameter [default: 0.01]\n"
@@ -466,7 +467,7 @@ void ValidateOptions::CheckReplay(const CLI::App& app) {
   }
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: requires --hand");
-    if (replay.stress) throw InputError("--disturbance limits: requires --replay points");
+    if (replay.resisted_wrench) throw InputError("--disturbance limits: requires --replay points");
     Refuse(app,
            {"--engine", "--protocol", "--tolerance diameters", "--replay align", "--finger-radius"},
            "requires --replay points");

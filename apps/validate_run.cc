@@ -12,7 +12,7 @@
 
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
-#include "apps/held_folder.h"
+#include "apps/locked_output_folder.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -240,7 +240,7 @@ void WriteScene(const ValidateOptions& options, const ValidateTask& task,
     return;
   }
   sim::HandWorldOptions world;
-  world.mu = std::tan(plan.half_angle);
+  world.mu = std::tan(plan.friction_angle);
   world.tip = settings.hand->tip;
   world.mass_kg = sim::BodyOf(object, plan.scale, *settings.hand).mass_kg;
   WriteSceneFolder(
@@ -256,7 +256,7 @@ std::string TrajectoryText(const ValidateOptions& options, const ReplayRecord& r
 }
 
 void WriteResults(const ValidateOptions& options, const render::FrameOptions& frame,
-                  const ValidateTask& task, ReplayRecord& record, HeldFolder& folder,
+                  const ValidateTask& task, ReplayRecord& record, LockedOutputFolder& folder,
                   validation::ValidationResult& result) {
   report::Report& report = result.report;
   const std::vector<std::string> names = NamesOfResults(options, task);
@@ -294,7 +294,7 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
   const object::BodyMeasures body = sim::BodyOf(object, task.plan.scale, options.replay);
   for (const std::string& warning :
        {object::SizeWarning(body, task.plan.scale), options.friction.warning(),
-        plan::InventedContactsWarning(object, plan::LocatePlan(object, task.plan)),
+        plan::FilledContactsWarning(object, plan::ProjectPlan(object, task.plan)),
         UncheckedHandWarning(options, task.plan)}) {
     if (!warning.empty()) PrintMessage(kValidateName, "warning: " + warning);
   }
@@ -332,7 +332,7 @@ ValidationRun RunValidation(const ValidateOptions& options) {
   const ValidateTask task = ReadTask(options);
   if (!options.verify.empty()) return {Verify(options, task), {}};
   const render::FrameOptions frame = FrameOptionsFor(options, task);
-  HeldFolder folder(options.Folder());
+  LockedOutputFolder folder(options.Folder());
   ExpectFree(folder, OwnResults(folder), NamesOfResults(options, task));
   validation::ValidationResult result = ValidateAndRecord(options, task, record);
   report::Report& report = result.report;

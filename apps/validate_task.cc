@@ -98,7 +98,7 @@ object::Reading ReadingOf(const plan::Plan& plan, object::Reading reading) {
   if (plan.roadmap && plan.roadmap->roughness) {
     reading.patch = {plan.patch_radius, *plan.roadmap->roughness};
   }
-  reading.allow_invented = plan.roadmap && plan.roadmap->allow_invented;
+  reading.allow_filled = plan.roadmap && plan.roadmap->allow_filled;
   return reading;
 }
 
@@ -116,7 +116,7 @@ std::string ReadingKey(const plan::Plan& plan) {
     key.push_back(*plan.roadmap->roughness);
     key.push_back(report::OrNull(plan.patch_radius));
   }
-  key.push_back(plan.roadmap && plan.roadmap->allow_invented);
+  key.push_back(plan.roadmap && plan.roadmap->allow_filled);
   return key.dump();
 }
 
@@ -223,7 +223,7 @@ std::vector<std::string> HandWarnings(const ValidateOptions& options, const Vali
 
 validation::ValidationOptions ValidationOptionsOf(const ValidateOptions& options) {
   validation::ValidationOptions given;
-  given.half_angle = options.friction.half_angle();
+  given.friction_angle = options.friction.friction_angle();
   given.torsion = options.contact.torsion();
   given.allow_undecided = options.allow_undecided;
   given.certificates = options.certificates;
@@ -283,9 +283,9 @@ ValidateTask ReadTask(const ValidateOptions& options) {
     task.file_text = ReadFile(options.grasp_path);
     const grasp::Grasp grasp =
         plan::ParseGrasp(task.file_text, options.grasp_path, *task.object->object);
-    task.plan =
-        validation::MakeHoldPlan(*task.object->object, grasp,
-                                 options.friction.required_half_angle(), options.scale.value_or(1));
+    task.plan = validation::MakeHoldPlan(*task.object->object, grasp,
+                                         options.friction.required_friction_angle(),
+                                         options.scale.value_or(1));
     plan::SetTorsion(options.contact.torsion().value_or(0), task.plan);
   } else {
     ReadPlanTask(options, reading, task);
@@ -305,8 +305,8 @@ ValidateTask MakePlanTask(const ValidateOptions& options, const std::string& tex
   const object::Reading reading = ReadingOf(plan, {});
   const std::string path =
       objects.finder.Find(plan.object_file, plan.object_sha256, options.plan_path);
-  task.object = objects.shelf.Get(path + " " + ReadingKey(plan),
-                                  [&] { return ReadObjectOf(plan, path, reading); });
+  task.object = objects.object_cache.Get(path + " " + ReadingKey(plan),
+                                         [&] { return ReadObjectOf(plan, path, reading); });
   FinishPlanTask(options, path, reading, task);
   FinishTask(options, task);
   return task;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 #include "apps/progress.h"
 #include "apps/validate_options.h"
 #include "planner/kinematics/hand_file.h"
@@ -75,7 +75,7 @@ void CheckTorsionFits(const ValidateOptions& options, const object::Object& obje
 /// Sources of the objects of many plans.
 struct PlanObjects {
   ObjectFinder finder;
-  ObjectShelf shelf;
+  ObjectCache object_cache;
 };
 
 /// Make the task of one of many plans, which has no separate file.

@@ -63,10 +63,10 @@ std::string DescribeProofs(const certificate::EntryVerdict& entry) {
 }
 
 /// Refuse a report with another friction angle: its proofs do not apply.
-void ExpectFriction(const plan::JsonReader& json, double half_angle) {
+void ExpectFriction(const plan::JsonReader& json, double friction_angle) {
   const double degrees = json.Number();
-  if (std::abs(Radians(degrees) - half_angle) <= kSameFriction) return;
-  json.Fail("expected " + FormatShort(Degrees(half_angle)) +
+  if (std::abs(Radians(degrees) - friction_angle) <= kSameFriction) return;
+  json.Fail("expected " + FormatShort(Degrees(friction_angle)) +
             "° as of the plan or --friction-angle, found " + FormatShort(degrees) +
             "°; help: pass the --friction-angle of the report");
 }
@@ -81,11 +81,11 @@ void ExpectTorsion(const plan::JsonReader& settings, double torsion) {
 }
 
 std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t proved,
-                    double half_angle) {
+                    double friction_angle) {
   const std::string entries = std::to_string(checks.size());
   std::string text = std::to_string(proved) + " of " + entries +
                      " entries proved force closure in exact arithmetic, friction angle " +
-                     FormatShort(Degrees(half_angle)) + "°\n";
+                     FormatShort(Degrees(friction_angle)) + "°\n";
   const auto fault = std::ranges::find_if(
       checks, [](const plan::StepCheck& check) { return check.reason != plan::Reason::kNone; });
   if (fault != checks.end()) {
@@ -108,7 +108,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   root.ExpectFormat("regrasp-report");
   ExpectDigest(root.Member("object"), subject.object_sha256, "object");
   ExpectDigest(root.Member("plan"), subject.plan_sha256, "plan");
-  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), plan.half_angle);
+  ExpectFriction(root.Member("settings").Member("friction_half_angle_deg"), plan.friction_angle);
   ExpectTorsion(root.Member("settings"), plan.torsion);
   const plan::JsonReader steps = root.Member("steps");
   const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
@@ -121,7 +121,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   ReportVerification verification;
   std::size_t proved = 0;
   for (const certificate::EntryVerdict& entry :
-       certificate::CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
+       certificate::CheckPlanProofs(check.projected, std::tan(plan.friction_angle), proofs)) {
     const std::string fault = FaultOf(check.steps[entry.index]);
     verification.text += std::to_string(entry.index) + " " + entry.kind + "  " +
                          (fault.empty() ? DescribeProofs(entry) : fault) + "\n";
@@ -134,7 +134,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
                          (fault.empty() ? "not proved: the report has no proof of it" : fault) +
                          "\n";
   }
-  verification.text += Summary(check.steps, proved, plan.half_angle);
+  verification.text += Summary(check.steps, proved, plan.friction_angle);
   verification.proved = proved == entries;
   return verification;
 }

@@ -104,18 +104,18 @@ std::optional<Segment> SegmentBetween(const object::Polyhedron& solid, const gra
   return segment;
 }
 
-std::vector<Segment> DrawSegments(const object::Polyhedron& solid, double half_angle) {
+std::vector<Segment> DrawSegments(const object::Polyhedron& solid, double friction_angle) {
   SurfaceDraw draw(solid);
   const object::WrenchFrame frame = solid.wrench_frame();
   std::vector<Segment> segments;
   while (segments.size() < kSegments) {
     grasp::Grasp from;
     for (int i = 0; i < kContacts; ++i) from.push_back(draw.Draw());
-    if (!grasp::IsForceClosure(from, frame, half_angle)) continue;
+    if (!grasp::IsForceClosure(from, frame, friction_angle)) continue;
     for (int tries = 0; tries < kPartnerDraws; ++tries) {
       grasp::Grasp to;
       for (const grasp::Contact& contact : from) to.push_back(draw.DrawOn(contact.face));
-      if (!grasp::IsForceClosure(to, frame, half_angle)) continue;
+      if (!grasp::IsForceClosure(to, frame, friction_angle)) continue;
       auto segment = SegmentBetween(solid, from, to);
       if (!segment) continue;
       segments.push_back(std::move(*segment));
@@ -126,7 +126,7 @@ std::vector<Segment> DrawSegments(const object::Polyhedron& solid, double half_a
 }
 
 /// Return the contacts of a whole segment in a frame that moves with their centre.
-motion::MovingContacts MovingContactsOf(const Segment& segment, double half_angle) {
+motion::MovingContacts MovingContactsOf(const Segment& segment, double friction_angle) {
   Vector3d start = Vector3d::Zero();
   Vector3d end = Vector3d::Zero();
   for (int i = 0; i < kContacts; ++i) {
@@ -141,8 +141,8 @@ motion::MovingContacts MovingContactsOf(const Segment& segment, double half_angl
   for (int i = 0; i < kContacts; ++i) {
     const Eigen::Vector3d from = (segment.from[i].p - start) / radius;
     const Eigen::Vector3d to = (segment.to[i].p - end) / radius;
-    contacts.push_back(
-        {from, to, to - from, segment.from[i].n, std::cos(half_angle), std::sin(half_angle)});
+    contacts.push_back({from, to, to - from, segment.from[i].n, std::cos(friction_angle),
+                        std::sin(friction_angle)});
   }
   return contacts;
 }
@@ -171,21 +171,22 @@ Outcome Measure(const std::vector<Segment>& segments, const Prove& prove) {
 }
 
 template <int kDegree>
-Outcome MeasureOnePiece(const std::vector<Segment>& segments, double half_angle) {
+Outcome MeasureOnePiece(const std::vector<Segment>& segments, double friction_angle) {
   return Measure(segments, [&](const Segment& segment) {
     motion::MovingForces<kDegree> forces;
-    return motion::FindMovingForces<3, kDegree>(MovingContactsOf(segment, half_angle), forces) ? 1
-                                                                                               : 0;
+    return motion::FindMovingForces<3, kDegree>(MovingContactsOf(segment, friction_angle), forces)
+               ? 1
+               : 0;
   });
 }
 
 /// Return the number of proofs that exact arithmetic rejects.
-int CountRefused(const std::vector<Segment>& segments, double half_angle) {
+int CountRefused(const std::vector<Segment>& segments, double friction_angle) {
   int refused = 0;
   for (const Segment& segment : segments) {
-    const auto pieces = motion::FindMotionProof(segment.motion, 3, half_angle);
+    const auto pieces = motion::FindMotionProof(segment.motion, 3, friction_angle);
     if (!pieces) continue;
-    const double mu = std::tan(half_angle);
+    const double mu = std::tan(friction_angle);
     refused += motion::CheckMotionProof(segment.from, segment.to, 3, mu, *pieces).proves() ? 0 : 1;
   }
   return refused;
@@ -198,15 +199,15 @@ void PrintRow(const std::string& body, double degrees) {
       object::ReadObject(std::string(REGRASP_MODELS "/") + body + ".obj");
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
   const object::WrenchFrame frame = solid.wrench_frame();
-  const double half_angle = Radians(degrees);
-  const std::vector<Segment> segments = DrawSegments(solid, half_angle);
+  const double friction_angle = Radians(degrees);
+  const std::vector<Segment> segments = DrawSegments(solid, friction_angle);
   const Outcome truth = Measure(segments, [&](const Segment& segment) {
-    return motion::DecidePathForceClosure(segment.motion, frame, half_angle).holds() ? 1 : 0;
+    return motion::DecidePathForceClosure(segment.motion, frame, friction_angle).holds() ? 1 : 0;
   });
-  const Outcome first = MeasureOnePiece<1>(segments, half_angle);
-  const Outcome second = MeasureOnePiece<2>(segments, half_angle);
+  const Outcome first = MeasureOnePiece<1>(segments, friction_angle);
+  const Outcome second = MeasureOnePiece<2>(segments, friction_angle);
   const Outcome halved = Measure(segments, [&](const Segment& segment) {
-    const auto pieces = motion::FindMotionProof(segment.motion, 3, half_angle);
+    const auto pieces = motion::FindMotionProof(segment.motion, 3, friction_angle);
     return pieces ? static_cast<int>(pieces->size()) : 0;
   });
   const auto share = [&](const Outcome& outcome) {
@@ -219,7 +220,7 @@ void PrintRow(const std::string& body, double degrees) {
               Each(halved.pieces, halved.proved), Each(halved.proved_us, halved.proved),
               Each(halved.rejected_us, kSegments - halved.proved),
               (truth.proved_us + truth.rejected_us) / kSegments);
-  if (const int refused = CountRefused(segments, half_angle)) {
+  if (const int refused = CountRefused(segments, friction_angle)) {
     std::printf("%d proofs refused by exact arithmetic\n", refused);
   }
 }

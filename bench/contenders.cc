@@ -33,7 +33,7 @@ planning::PlanRequest RequestFor(const object::Object& object, const ContestSett
   return {.object = &object,
           .start = {planning::GraspChoice::Kind::kGiven, pair.start, "start"},
           .goal = {planning::GraspChoice::Kind::kGiven, pair.goal, "goal"},
-          .criteria = {setting.half_angle, setting.min_quality},
+          .criteria = {setting.friction_angle, setting.min_quality},
           .seed = seed};
 }
 
@@ -72,7 +72,7 @@ Contender GeneralSearch(const object::Object& object, const ContestSetting& sett
   const auto ask = [&object, setting, source](const GraspPair& pair, std::uint64_t seed) {
     const double begin = ProcessorSeconds();
     RandomStream random(seed, RandomUse::kCandidates);
-    tree::SearchSpace space(object, {setting.half_angle, setting.min_quality});
+    tree::SearchSpace space(object, {setting.friction_angle, setting.min_quality});
     space.SetLimits({.most_tests = tree::TreePlanner::kDefaultTests});
     const criteria::ContactSet from = space.Add(pair.start);
     const criteria::ContactSet to = space.Add(pair.goal);
@@ -99,10 +99,10 @@ Contender OnPolyhedron(const object::Polyhedron& solid, const ContestSetting& se
   if (solid.face_count() > kMostGraphFaces) {
     return Absent("polyhedron", std::to_string(solid.face_count()) + " faces");
   }
-  const bool uniform = setting.half_angle <= kMostUniform;
+  const bool uniform = setting.friction_angle <= kMostUniform;
   const double begin = ProcessorSeconds();
   const auto graph = std::make_shared<polyhedron::PolyhedronGraph>(
-      solid, setting.half_angle,
+      solid, setting.friction_angle,
       uniform ? planning::Spanning::kUniform : planning::Spanning::kAdaptive);
   const double seconds = ProcessorSeconds() - begin;
   if (graph->vertex_count() == 0) {
@@ -110,7 +110,7 @@ Contender OnPolyhedron(const object::Polyhedron& solid, const ContestSetting& se
   }
   const auto ask = [&solid, setting, graph](const GraspPair& pair, std::uint64_t seed) {
     planning::PlanRequest request = RequestFor(solid, setting, pair, seed);
-    request.parameters.Edit<sets::SetParameters>().spanning = setting.half_angle <= kMostUniform
+    request.parameters.Edit<sets::SetParameters>().spanning = setting.friction_angle <= kMostUniform
                                                                   ? planning::Spanning::kUniform
                                                                   : planning::Spanning::kAdaptive;
     return Timed(

@@ -18,7 +18,7 @@ struct GraspPair {
 
 /// Setting of a comparison of planners.
 struct ContestSetting {
-  double half_angle = 0;  ///< friction angle, radians
+  double friction_angle = 0;  ///< friction angle, radians
   /// minimum quality of the drawn grasps, and of the sequences if there are any
   double min_quality = 0;
   /// Number of contacts of the drawn grasps: 4 in space; in the plane 2, or 2 or 3.

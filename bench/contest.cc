@@ -48,7 +48,7 @@ int Standing::JoinedOf(std::size_t pairs) const {
 
 std::vector<GraspPair> DrawPairs(const object::Object& object, const ContestSetting& setting,
                                  const ContestLimits& limits) {
-  const criteria::GraspEvaluator evaluator(object, {setting.half_angle, setting.min_quality});
+  const criteria::GraspEvaluator evaluator(object, {setting.friction_angle, setting.min_quality});
   RandomStream of_start(kDrawSeed, RandomUse::kStart);
   RandomStream of_goal(kDrawSeed, RandomUse::kGoal);
   std::vector<GraspPair> pairs;

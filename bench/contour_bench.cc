@@ -163,8 +163,8 @@ void PrintGrowth(double degrees) {
 
 void TimeWholeGraph(benchmark::State& state) {
   const object::Polygon polygon = LobedOutline(kOutlineEdges);
-  const double half_angle = Radians(static_cast<double>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(contour::ContourGraph(polygon, half_angle));
+  const double friction_angle = Radians(static_cast<double>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(contour::ContourGraph(polygon, friction_angle));
 }
 BENCHMARK(TimeWholeGraph)
     ->Name("graph, 300 edges")

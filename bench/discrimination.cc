@@ -39,7 +39,8 @@ Sample Examine(const GraspedBody& body, const RandomCase& drawn,
   sample.body = body.name();
   sample.ratio = drawn.ratio;
   sample.quality =
-      grasp::ComputeQuality(drawn.examined, body.object().wrench_frame(), plan.half_angle).lower;
+      grasp::ComputeQuality(drawn.examined, body.object().wrench_frame(), plan.friction_angle)
+          .lower;
   const bool complete = result.steps.size() == plan.steps.size() + 1;
   sample.passed = complete && last.reason == plan::Reason::kNone;
   sample.reason = plan::ReasonName(last.reason);
@@ -68,13 +69,13 @@ struct Variant {
 
 const std::vector<Variant> kVariants = {
     {"as they are", [](sim::ReplayOptions&) {}},
-    {"shake ρ 0.005", [](sim::ReplayOptions& o) { o.shake = 0.005; }},
-    {"shake ρ 0.02", [](sim::ReplayOptions& o) { o.shake = 0.02; }},
-    {"no shake, gravity alone", [](sim::ReplayOptions& o) { o.shake = 0; }},
+    {"shake ρ 0.005", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.005; }},
+    {"shake ρ 0.02", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.02; }},
+    {"no shake, gravity alone", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0; }},
     {"tolerance 1e-4 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-4; }},
     {"tolerance 1e-2 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-2; }},
-    {"squeeze 100 weights", [](sim::ReplayOptions& o) { o.squeeze_N = 100; }},
-    {"squeeze 10,000 weights", [](sim::ReplayOptions& o) { o.squeeze_N = 10'000; }},
+    {"squeeze 100 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 100; }},
+    {"squeeze 10,000 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 10'000; }},
     {"finger stiffness halved", [](sim::ReplayOptions& o) { o.stiffness_factor = 0.5; }},
     {"finger stiffness doubled", [](sim::ReplayOptions& o) { o.stiffness_factor = 2; }},
     {"time step halved", [](sim::ReplayOptions& o) { o.timestep_factor = 0.5; }},
@@ -85,10 +86,10 @@ const std::vector<Variant> kVariants = {
 sim::ReplayOptions OptionsFor(const Variant& variant) {
   sim::ReplayOptions options;
   variant.change(options);
-  if (options.squeeze_N) {
+  if (options.grasp_force_N) {
     constexpr double kGravityOnEarth = 9.81;
     options.mass_kg = 0.1;
-    *options.squeeze_N *= *options.mass_kg * kGravityOnEarth;
+    *options.grasp_force_N *= *options.mass_kg * kGravityOnEarth;
   }
   return options;
 }
@@ -133,7 +134,7 @@ ScatterPlot PlotOf(const std::vector<Sample>& samples) {
                  {"not force closure", "#b2182b", {}}};
   for (const Sample& sample : samples) {
     const std::size_t series =
-        sample.ratio < 1 ? 2 : (sample.quality < sim::ReplayOptions().shake ? 1 : 0);
+        sample.ratio < 1 ? 2 : (sample.quality < sim::ReplayOptions().disturbance_ratio ? 1 : 0);
     plot.series[series].points.emplace_back(sample.ratio, sample.displacement);
   }
   return plot;

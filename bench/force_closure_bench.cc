@@ -19,7 +19,7 @@
 #include "planner/base/number.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/subset_force_closure.h"
 
 namespace {
@@ -85,39 +85,40 @@ const std::vector<grasp::Grasp>& PlanarGrasps() {
   return grasps;
 }
 
-bool GlpkForceClosure(const grasp::Grasp& grasp, double half_angle) {
-  return PyramidForceClosure(grasp, half_angle);
+bool GlpkForceClosure(const grasp::Grasp& grasp, double friction_angle) {
+  return PyramidForceClosure(grasp, friction_angle);
 }
 
-bool QhullForceClosure(const grasp::Grasp& grasp, double half_angle) {
-  const grasp::ConvexHull hull = grasp::ComputeConvexHull(WrenchesOfPyramids(grasp, half_angle));
+bool QhullForceClosure(const grasp::Grasp& grasp, double friction_angle) {
+  const grasp::ConvexHull hull =
+      grasp::ComputeConvexHull(WrenchesOfPyramids(grasp, friction_angle));
   for (const grasp::HullFacet& facet : hull.facets) {
     if (facet.offset <= hull.joggle) return false;
   }
   return true;
 }
 
-bool ExactForceClosure(const grasp::Grasp& grasp, double half_angle) {
-  return grasp::IsForceClosure(grasp, kFrame, half_angle);
+bool ExactForceClosure(const grasp::Grasp& grasp, double friction_angle) {
+  return grasp::IsForceClosure(grasp, kFrame, friction_angle);
 }
 
 template <bool (*kTest)(const grasp::Grasp&, double), int kCount>
 void Time(benchmark::State& state) {
-  const double half_angle = Radians(kDegrees[state.range(0)]);
+  const double friction_angle = Radians(kDegrees[state.range(0)]);
   const auto& grasps = Grasps();
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(kTest(grasps[next], half_angle));
+    benchmark::DoNotOptimize(kTest(grasps[next], friction_angle));
     next = (next + 1) % kCount;
   }
   state.counters["degrees"] = kDegrees[state.range(0)];
 }
 
 void TimePlanar(benchmark::State& state) {
-  const double half_angle = Radians(kDegrees[state.range(0)]);
+  const double friction_angle = Radians(kDegrees[state.range(0)]);
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(grasp::IsForceClosure(PlanarGrasps()[next], kPlane, half_angle));
+    benchmark::DoNotOptimize(grasp::IsForceClosure(PlanarGrasps()[next], kPlane, friction_angle));
     next = (next + 1) % kGrasps;
   }
   state.counters["degrees"] = kDegrees[state.range(0)];
@@ -126,7 +127,7 @@ void TimePlanar(benchmark::State& state) {
 void TimeRequired(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(grasp::ComputeRequiredHalfAngle(Grasps()[next], kFrame));
+    benchmark::DoNotOptimize(grasp::ComputeRequiredFrictionAngle(Grasps()[next], kFrame));
     next = (next + 1) % kGrasps;
   }
 }
@@ -165,31 +166,31 @@ double MicrosecondsEach(int count, Test test) {
 /// An inscribed pyramid with eight sides misses grasps, but must not accept a grasp that the cone
 /// rejects.
 void CompareVerdicts(double degrees) {
-  const double half_angle = Radians(degrees);
+  const double friction_angle = Radians(degrees);
   int both = 0;
   int neither = 0;
   int only_cone = 0;
   int only_pyramid = 0;
   for (const grasp::Grasp& grasp : Grasps()) {
-    const bool cone = ExactForceClosure(grasp, half_angle);
-    const bool pyramid = GlpkForceClosure(grasp, half_angle);
+    const bool cone = ExactForceClosure(grasp, friction_angle);
+    const bool pyramid = GlpkForceClosure(grasp, friction_angle);
     ++(cone ? (pyramid ? both : only_cone) : (pyramid ? only_pyramid : neither));
   }
   int hull_differs = 0;
   for (int g = 0; g < kHullGrasps; ++g) {
-    hull_differs +=
-        QhullForceClosure(Grasps()[g], half_angle) != GlpkForceClosure(Grasps()[g], half_angle);
+    hull_differs += QhullForceClosure(Grasps()[g], friction_angle) !=
+                    GlpkForceClosure(Grasps()[g], friction_angle);
   }
   std::printf(
       "%g degrees, %d grasps: both yes %d, both no %d, cone only %d (the inscribed pyramid is "
       "smaller), pyramid only %d (must be 0); Qhull differs from GLPK on %d of %d\n",
       degrees, kGrasps, both, neither, only_cone, only_pyramid, hull_differs, kHullGrasps);
   const double exact = MicrosecondsEach(
-      kGrasps, [&](const grasp::Grasp& g) { return ExactForceClosure(g, half_angle); });
+      kGrasps, [&](const grasp::Grasp& g) { return ExactForceClosure(g, friction_angle); });
   const double glpk = MicrosecondsEach(
-      kGrasps, [&](const grasp::Grasp& g) { return GlpkForceClosure(g, half_angle); });
+      kGrasps, [&](const grasp::Grasp& g) { return GlpkForceClosure(g, friction_angle); });
   const double qhull = MicrosecondsEach(
-      kHullGrasps, [&](const grasp::Grasp& g) { return QhullForceClosure(g, half_angle); });
+      kHullGrasps, [&](const grasp::Grasp& g) { return QhullForceClosure(g, friction_angle); });
   std::printf("  exact cones %.3f us; GLPK %.1f us, %.0f times; Qhull %.0f us, %.0f times\n", exact,
               glpk, glpk / exact, qhull, qhull / exact);
 }

@@ -32,7 +32,7 @@ namespace {
 
 using namespace regrasp;
 
-constexpr double kHalfAngleDegrees = 20;
+constexpr double kFrictionAngleDegrees = 20;
 constexpr int kWidth = 1280, kHeight = 960, kSamples = 4;
 
 constexpr std::array<const char*, 7> kModels = {"cube.obj",     "l_block.obj",   "mug1000.obj",
@@ -47,7 +47,8 @@ struct Case {
 };
 
 render::FrameRenderer RendererOf(const Case& made) {
-  return {*made.file.object, made.plan.scale, made.plan.half_angle, made.snapshots, made.options};
+  return {*made.file.object, made.plan.scale, made.plan.friction_angle, made.snapshots,
+          made.options};
 }
 
 void DrawFrames(benchmark::State& state, const Case& made, const char* label) {
@@ -69,14 +70,15 @@ Case MakeCase(const std::string& model) {
   Case made{object::ReadObject(std::filesystem::path(REGRASP_MODELS) / model), {}, {}};
   const object::Object& object = *made.file.object;
   const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandomAny, {}, "random"};
-  const planning::PlanResult result = planning::Solve(
-      *registry::FindPlanner("general"), {.object = &object,
-                                          .start = random,
-                                          .goal = random,
-                                          .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
-                                          .seed = 1});
+  const planning::PlanResult result =
+      planning::Solve(*registry::FindPlanner("general"),
+                      {.object = &object,
+                       .start = random,
+                       .goal = random,
+                       .criteria = {.friction_angle = Radians(kFrictionAngleDegrees)},
+                       .seed = 1});
   if (!result.plan) throw std::runtime_error(model + ": no plan to draw");
-  made.plan = plan::CheckPlan(object, *result.plan).located;
+  made.plan = plan::CheckPlan(object, *result.plan).projected;
   for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {
     made.snapshots.push_back(step.snapshot);
   }
@@ -165,13 +167,13 @@ Case MakeHandCase(const std::string& name) {
   constexpr double kScale = 0.8;
   planning::PlanRequest request;
   request.object = &object;
-  request.criteria.half_angle = std::atan(0.8);
+  request.criteria.friction_angle = std::atan(0.8);
   gait::AskInHand(
       {.hand = &hand.hand, .scale = kScale, .turn = {Eigen::Vector3d::UnitZ(), Radians(90)}},
       request);
   const planning::PlanResult result = planning::Solve(gait::GaitPlanner(), request);
   if (!result.plan) throw std::runtime_error(name + ": no plan to draw");
-  made.plan = plan::LocatePlan(object, *result.plan);
+  made.plan = plan::ProjectPlan(object, *result.plan);
   const report::HandPicture picture(hand, made.plan, kScale * object.mass_properties().centroid);
   for (const sim::StepReplay& step : sim::ReplayPlan(object, made.plan, {}).steps) {
     made.snapshots.push_back(step.snapshot);

@@ -114,7 +114,7 @@ void Replay(const Contest& contest, const kinematics::HandFile& file, const Hand
   if (contest.of_critical) {
     // If a plan fails anyway, its failure at less friction means nothing.
     if (trial.fault) return;
-    const double critical = bench::CriticalFriction(trial, file.hand, body);
+    const double critical = bench::RequiredFriction(trial, file.hand, body);
     trial = bench::TryInHand(file, body, plan, *contest.of_critical * critical / kFriction);
   }
   replays.seconds += ProcessorSeconds() - begin;
@@ -139,7 +139,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     request.hand = &hand;
     request.solid = &body.solid();
     request.scale = body.scale;
-    request.criteria.half_angle = std::atan(contest.plan_mu);
+    request.criteria.friction_angle = std::atan(contest.plan_mu);
     if (contest.replay) request.simulate = sim::ExecutionSimulator(file, body.solid());
     request.criteria.min_quality = contest.min_quality;
     request.turn = contest.turn;
@@ -161,7 +161,7 @@ Outcome Run(const Contest& contest, const kinematics::HandFile& file, const Hand
     ++outcome.found;
     outcome.seconds.push_back(ProcessorSeconds() - begin);
     const plan::Plan plan =
-        plan::LocatePlan(body.solid(), gait::PlanOf(*found.gait, request, found.contacts));
+        plan::ProjectPlan(body.solid(), gait::PlanOf(*found.gait, request, found.contacts));
     outcome.switches +=
         static_cast<int>(std::ranges::count(plan.steps, std::string("switch"), plan::StepKind));
     const double check = ProcessorSeconds();
@@ -183,11 +183,11 @@ double TimeInverse(const kinematics::Finger& finger) {
   RandomStream random(1, RandomUse::kGaits);
   std::vector<kinematics::TipTarget> targets;
   for (int i = 0; i < 2000; ++i) {
-    kinematics::Posture posture(finger.drives);
+    kinematics::JointConfiguration configuration(finger.drives);
     for (int k = 0; k < finger.drives; ++k) {
-      posture[k] = finger.lower[k] + random.Uniform() * (finger.upper[k] - finger.lower[k]);
+      configuration[k] = finger.lower[k] + random.Uniform() * (finger.upper[k] - finger.lower[k]);
     }
-    const kinematics::TipState tip = kinematics::TipAt(finger, posture);
+    const kinematics::TipState tip = kinematics::TipAt(finger, configuration);
     targets.push_back({tip.centre, tip.axis});
   }
   int solved = 0;
@@ -209,22 +209,22 @@ void TimeRest(const kinematics::HandModel& hand, const HandBody& body) {
   request.hand = &hand;
   request.solid = &body.solid();
   request.scale = body.scale;
-  request.criteria.half_angle = std::atan(kFriction);
+  request.criteria.friction_angle = std::atan(kFriction);
   bench::GoodPoses good = bench::FindGoodPoses(request);
   request.start_pose = good.poses.front();
   const gait::RandomStances rests(request, {.among = std::move(good.contacts)});
   RandomStream random(1, RandomUse::kGaits);
-  constexpr int kRests = 2000;
+  constexpr int kConfigurations = 2000;
   int free = 0;
   double seconds = 0;
-  for (int i = 0; i < kRests; ++i) {
+  for (int i = 0; i < kConfigurations; ++i) {
     const double begin = ProcessorSeconds();
     if (!rests.TryDraw(random)) continue;
     ++free;
     seconds += ProcessorSeconds() - begin;
   }
   std::printf("a free rest of three fingers on %s: %.0f µs; %d of %d are free\n", body.name.c_str(),
-              1e6 * seconds / std::max(1, free), free, kRests);
+              1e6 * seconds / std::max(1, free), free, kConfigurations);
 }
 
 std::string Range(const std::vector<double>& values, int digits) {

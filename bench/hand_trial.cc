@@ -9,7 +9,7 @@
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_world.h"
 #include "sim/hand/check_hand.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::bench {
@@ -37,7 +37,7 @@ constexpr double kHardest = 4;
 std::optional<TrialFault> CheckInHand(const kinematics::HandFile& hand, const HandBody& body,
                                       const plan::Plan& plan) {
   plan::CheckOptions options;
-  options.hand_faults = sim::CheckHand(hand, body.solid(), plan::LocatePlan(body.solid(), plan));
+  options.hand_faults = sim::CheckHand(hand, body.solid(), plan::ProjectPlan(body.solid(), plan));
   const plan::PlanCheck check = plan::CheckPlan(body.solid(), plan, options);
   const auto failed = std::ranges::find_if(
       check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
@@ -49,8 +49,8 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
                     double friction_factor) {
   sim::HandReplayOptions options;
   options.friction_factor = friction_factor;
-  plan::Plan located = plan::LocatePlan(body.solid(), plan);
-  located.half_angle = std::atan(kFriction);
+  plan::Plan projected = plan::ProjectPlan(body.solid(), plan);
+  projected.friction_angle = std::atan(kFriction);
   const plan::EntryIndex end(static_cast<int>(plan.steps.size()));
   HandTrial trial;
   sim::ReplayObserver observer;
@@ -58,9 +58,10 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
     if (entry == end) trial.end = world.object_pose();
     trial.rests.push_back({ContactsNow(world, plan.scale), world.object_pose().linear()});
   };
-  const sim::ReplayResult replay = sim::ReplayHand(hand, body.solid(), located, options, observer);
+  const sim::ReplayResult replay =
+      sim::ReplayHand(hand, body.solid(), projected, options, observer);
   for (const sim::StepReplay& step : replay.steps) trial.simulated_s += step.hand->simulated_s;
-  trial.squeeze_N = replay.settings.squeeze_N;
+  trial.grasp_force_N = replay.settings.grasp_force_N;
   const sim::StepReplay& last = replay.steps.back();
   if (last.reason != plan::Reason::kNone) {
     trial.fault = FaultOf(last.reason, last.index, last.detail);
@@ -72,11 +73,11 @@ HandTrial TryInHand(const kinematics::HandFile& hand, const HandBody& body, cons
   return trial;
 }
 
-double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
+double RequiredFriction(const HandTrial& trial, const kinematics::HandModel& hand,
                         const HandBody& body) {
   const object::WrenchFrame frame = body.solid().wrench_frame();
   const double weight = object::MeasureBody(body.solid(), body.scale).mass_kg * sim::kGravity;
-  const double shake = sim::HandReplayOptions().shake * trial.squeeze_N;
+  const double size = sim::HandReplayOptions().disturbance_ratio * trial.grasp_force_N;
   // The torque of a disturbance is its force times half the diameter. Loads have their torque over
   // the frame's radius.
   const double arm = body.solid().diameter() / 2 / frame.radius;
@@ -84,13 +85,13 @@ double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& han
   for (const HandTrial::Rest& rest : trial.rests) {
     const Eigen::Matrix3d to_object = rest.turn.transpose();
     std::vector<grasp::Wrench> loads;
-    for (const sim::Push& push : sim::PushDirections(3)) {
-      const grasp::Wrench wrench = sim::PushWrench(push, shake);
+    for (const sim::Disturbance& disturbance : sim::DisturbanceDirections(3)) {
+      const grasp::Wrench wrench = sim::DisturbanceWrench(disturbance, size);
       loads.push_back({to_object * (wrench.force - weight * hand.up),
                        arm * (to_object * wrench.torque_over_radius)});
     }
-    critical =
-        std::max(critical, LeastFriction(rest.contacts, frame, loads, kHardest * trial.squeeze_N));
+    critical = std::max(critical,
+                        LeastFriction(rest.contacts, frame, loads, kHardest * trial.grasp_force_N));
   }
   return critical;
 }

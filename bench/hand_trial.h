@@ -37,7 +37,7 @@ struct HandTrial {
     Eigen::Matrix3d turn;   ///< orientation of the object in the palm frame
   };
   std::vector<Rest> rests;
-  double squeeze_N = 0;
+  double grasp_force_N = 0;
   // Final static grasp, before its disturbance test; nullopt if the replay does not reach it.
   std::optional<Eigen::Isometry3d> end;  ///< pose of the object
   double off_m = 0;                      ///< position deviation from the plan, m
@@ -53,7 +53,7 @@ struct HandTrial {
 /// It is the least value at which their contacts can balance the weight and each force of the
 /// disturbance test. With less friction no controller can keep the object in place. Force closure
 /// may need more, if the weight keeps the object between the fingers.
-[[nodiscard]] double CriticalFriction(const HandTrial& trial, const kinematics::HandModel& hand,
+[[nodiscard]] double RequiredFriction(const HandTrial& trial, const kinematics::HandModel& hand,
                                       const HandBody& body);
 
 }  // namespace regrasp::bench

@@ -39,7 +39,7 @@ const object::Polyhedron& Body(std::int64_t index) {
 
 roadmap::ClusteredRoadmapOptions Options(int clusters) {
   roadmap::ClusteredRoadmapOptions options;
-  options.half_angle = Radians(kDegrees);
+  options.friction_angle = Radians(kDegrees);
   options.clusters = clusters;
   return options;
 }
@@ -74,7 +74,7 @@ void BM_Subsets(benchmark::State& state) {
   grasp::SubsetCounts counts;
   for (auto _ : state) {
     benchmark::DoNotOptimize(grasp::ForceClosureSubsets(roadmap.roadmap.points(), roadmap.frame,
-                                                        roadmap.half_angle, &counts));
+                                                        roadmap.friction_angle, &counts));
   }
   state.SetLabel(kBodies.at(state.range(0)));
   state.counters["subsets"] = static_cast<double>(counts.subsets);
@@ -99,7 +99,7 @@ void BM_SubsetsByGlpk(benchmark::State& state) {
       contact.p = (contact.p - roadmap.frame.origin) / roadmap.frame.radius;
       grasp.push_back(contact);
     }
-    benchmark::DoNotOptimize(PyramidForceClosure(grasp, roadmap.half_angle));
+    benchmark::DoNotOptimize(PyramidForceClosure(grasp, roadmap.friction_angle));
     ++asked;
   }
   state.SetLabel(kBodies.at(state.range(0)));

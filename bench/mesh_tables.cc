@@ -73,7 +73,7 @@ std::vector<std::string> QueryRow(const Setting& setting, const roadmap::Cluster
 /// - the number of links by Algorithm 3 of the first 30 grasps accepted by neither.
 std::vector<std::string> LocalRow(const Setting& setting, const roadmap::ClusteredRoadmap& roadmap,
                                   const object::Polyhedron& solid) {
-  const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
+  const criteria::GraspCriteria force_closure = {roadmap.friction_angle, 0};
   const criteria::GraspEvaluator evaluator(solid, force_closure);
   roadmap::GraspOracle oracle(solid, roadmap.clusters.contacts(), force_closure);
   roadmap::LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
@@ -163,7 +163,7 @@ class Tables {
     const object::ObjectFile file = object::ReadObject(models_ / name);
     const auto& solid = dynamic_cast<const object::Polyhedron&>(*file.object);
     roadmap::ClusteredRoadmapOptions options;
-    options.half_angle = Radians(kDegrees);
+    options.friction_angle = Radians(kDegrees);
     options.clusters = setting.clusters;
     const auto begin = std::chrono::steady_clock::now();
     const roadmap::ClusteredRoadmap roadmap(solid, options);

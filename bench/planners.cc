@@ -152,7 +152,7 @@ class Tables {
                                       ? " or " + std::to_string(setting.most_contacts)
                                       : "");
     for (const Standing& standing : contest.standings) {
-      std::vector<std::string> row = {name, FormatShort(Degrees(setting.half_angle)), contacts,
+      std::vector<std::string> row = {name, FormatShort(Degrees(setting.friction_angle)), contacts,
                                       standing.planner};
       for (std::string& cell : Cells(standing, limits_.pairs)) row.push_back(std::move(cell));
       if (setting.min_quality > 0) {
@@ -165,7 +165,7 @@ class Tables {
     if (const auto better = FindBetterThanGeneral(contest)) {
       ++better_;
       std::printf("%s, %s°, %s contacts: %s joins more than general\n", name.c_str(),
-                  FormatShort(Degrees(setting.half_angle)).c_str(), contacts.c_str(),
+                  FormatShort(Degrees(setting.friction_angle)).c_str(), contacts.c_str(),
                   better->c_str());
     }
   }

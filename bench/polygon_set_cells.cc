@@ -117,8 +117,9 @@ bool NormalsSpan(const object::Polygon& polygon, const std::array<int, 3>& edges
   return true;
 }
 
-std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon, double half_angle) {
-  const double tangent = std::tan(half_angle);
+std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon,
+                                                double friction_angle) {
+  const double tangent = std::tan(friction_angle);
   return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
     if (!NormalsSpan(polygon, edges, tangent)) return std::nullopt;
     return tangent;
@@ -126,8 +127,8 @@ std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon, 
 }
 
 std::vector<SetCandidate> FindAdaptiveCandidates(const object::Polygon& polygon,
-                                                 double half_angle) {
-  const double tangent = std::tan(half_angle);
+                                                 double friction_angle) {
+  const double tangent = std::tan(friction_angle);
   return FindCandidates(polygon, [&](const auto& edges) -> std::optional<double> {
     if (!NormalsSpan(polygon, edges, 0)) return std::nullopt;
     if (NormalsSpan(polygon, edges, tangent, true)) return tangent;

@@ -37,12 +37,12 @@ struct SetCandidate {
 
 /// Return the triples whose normals θ-positively span, with tan θ, in lexicographic order.
 [[nodiscard]] std::vector<SetCandidate> FindUniformCandidates(const object::Polygon& polygon,
-                                                              double half_angle);
+                                                              double friction_angle);
 
 /// Return the triples whose normals positively span, in lexicographic order.
 /// Their tangent is the smaller of tan θ and the largest double not above tan φ*.
 [[nodiscard]] std::vector<SetCandidate> FindAdaptiveCandidates(const object::Polygon& polygon,
-                                                               double half_angle);
+                                                               double friction_angle);
 
 /// Return the points that see an edge inside their double-sided cones.
 /// The set is a hexagon about the open edge. It ends at `reach` edge lengths from the edge's line.

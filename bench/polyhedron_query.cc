@@ -62,9 +62,9 @@ class QueryMaker {
 QueryTimes TimeQueries(const object::Polyhedron& solid, double degrees, planning::Spanning spanning,
                        int queries) {
   planning::PlanRequest request = {.object = &solid,
-                                   .criteria = {.half_angle = Radians(degrees)},
+                                   .criteria = {.friction_angle = Radians(degrees)},
                                    .parameters = sets::SetParameters{.spanning = spanning}};
-  polyhedron::PolyhedronGraph graph(solid, request.criteria.half_angle, spanning);
+  polyhedron::PolyhedronGraph graph(solid, request.criteria.friction_angle, spanning);
   const polyhedron::PolyhedronPlanner planner(&graph);
   polyhedron::PolyhedronModel model(solid, graph, request);
   QueryMaker maker(graph, model);

@@ -71,10 +71,12 @@ auto Fastest(const Make& make, double& seconds) {
 void AddBody(const std::filesystem::path& file, std::vector<Table>& tables) {
   const object::ObjectFile model = object::ReadObject(file);
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*model.object);
-  const double half_angle = Radians(kDegrees);
+  const double friction_angle = Radians(kDegrees);
   Row row{file.stem().string(), solid.face_count(), 0, 0, 0, 0};
   polyhedron::PolyhedronGraph graph = Fastest(
-      [&] { return polyhedron::PolyhedronGraph(solid, half_angle, planning::Spanning::kUniform); },
+      [&] {
+        return polyhedron::PolyhedronGraph(solid, friction_angle, planning::Spanning::kUniform);
+      },
       row.seconds);
   row.cells = graph.vertex_count();
   row.links = std::ssize(graph.switches());
@@ -84,7 +86,7 @@ void AddBody(const std::filesystem::path& file, std::vector<Table>& tables) {
   for (std::size_t t = 1; t < tables.size(); ++t) {
     const polyhedron::SampledGraph sampled = Fastest(
         [&] {
-          return polyhedron::SamplePolyhedron(solid, half_angle, planning::Spanning::kUniform,
+          return polyhedron::SamplePolyhedron(solid, friction_angle, planning::Spanning::kUniform,
                                               region, kSampleCounts[t - 1], kSeed);
         },
         row.seconds);

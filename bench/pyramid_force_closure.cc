@@ -10,7 +10,7 @@
 
 namespace regrasp {
 
-PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double half_angle) {
+PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double friction_angle) {
   PyramidWrenches wrenches;
   int column = 0;
   for (const grasp::Contact& contact : grasp) {
@@ -19,16 +19,17 @@ PyramidWrenches WrenchesOfPyramids(const grasp::Grasp& grasp, double half_angle)
     for (int side = 0; side < kBenchSides; ++side) {
       const double angle = 2 * std::numbers::pi * side / kBenchSides;
       const Eigen::Vector3d force =
-          contact.n + std::tan(half_angle) * (std::cos(angle) * first + std::sin(angle) * second);
+          contact.n +
+          std::tan(friction_angle) * (std::cos(angle) * first + std::sin(angle) * second);
       wrenches.col(column++) << force, contact.p.cross(force);
     }
   }
   return wrenches;
 }
 
-bool PyramidForceClosure(const grasp::Grasp& grasp, double half_angle) {
+bool PyramidForceClosure(const grasp::Grasp& grasp, double friction_angle) {
   constexpr int kDimension = PyramidWrenches::RowsAtCompileTime;
-  const PyramidWrenches wrenches = WrenchesOfPyramids(grasp, half_angle);
+  const PyramidWrenches wrenches = WrenchesOfPyramids(grasp, friction_angle);
   const int columns = static_cast<int>(wrenches.cols());
   const std::unique_ptr<glp_prob, void (*)(glp_prob*)> problem(glp_create_prob(), &glp_delete_prob);
   glp_add_rows(problem.get(), kDimension);

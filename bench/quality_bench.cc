@@ -28,7 +28,7 @@ namespace {
 
 using namespace regrasp;
 
-constexpr double kHalfAngle = Radians(25);
+constexpr double kFrictionAngle = Radians(25);
 constexpr int kContacts = 4;
 /// Qhull takes tens of milliseconds per grasp.
 constexpr int kMostForPyramids = 100;
@@ -61,7 +61,7 @@ std::vector<grasp::Grasp> RandomGraspsHeld(int count) {
     for (int i = 0; i < kContacts; ++i) {
       grasp.push_back(RandomContact(engine, held.size() % 2 == 0));
     }
-    if (grasp::IsForceClosure(grasp, kFrame, kHalfAngle)) held.push_back(grasp);
+    if (grasp::IsForceClosure(grasp, kFrame, kFrictionAngle)) held.push_back(grasp);
   }
   return held;
 }
@@ -83,7 +83,8 @@ double QualityOfPyramids(const grasp::Grasp& grasp, int sides) {
     for (int side = 0; side < sides; ++side) {
       const double angle = 2 * std::numbers::pi * side / sides;
       const Eigen::Vector3d force =
-          contact.n + std::tan(kHalfAngle) * (std::cos(angle) * first + std::sin(angle) * second);
+          contact.n +
+          std::tan(kFrictionAngle) * (std::cos(angle) * first + std::sin(angle) * second);
       wrenches.col(column++) << force, contact.p.cross(force);
     }
   }
@@ -110,7 +111,7 @@ void Compare(const char* title, const std::vector<grasp::Grasp>& grasps,
              const std::vector<Method>& methods) {
   std::vector<double> known;
   for (const grasp::Grasp& grasp : grasps) {
-    known.push_back(grasp::BoundQuality(grasp, kFrame, kHalfAngle, 1e-3).lower);
+    known.push_back(grasp::BoundQuality(grasp, kFrame, kFrictionAngle, 1e-3).lower);
   }
   std::printf("%s, %zu grasps\n%-36s %10s %10s %10s %12s %12s\n", title, grasps.size(), "",
               "median us", "90 % us", "most us", "error, med.", "error, most");
@@ -140,7 +141,7 @@ int main(int argc, char** argv) {
   }
   const auto bounds = [](double gap) {
     return [gap](const grasp::Grasp& grasp) {
-      return grasp::BoundQuality(grasp, kFrame, kHalfAngle, gap).lower;
+      return grasp::BoundQuality(grasp, kFrame, kFrictionAngle, gap).lower;
     };
   };
   const std::vector<Method> methods = {
@@ -148,7 +149,7 @@ int main(int argc, char** argv) {
       {"BoundQuality, 0.1 %", bounds(0.001), std::numeric_limits<std::size_t>::max()},
       {"ComputeQuality, 1 % (Qhull, rounds)",
        [](const grasp::Grasp& grasp) {
-         return grasp::ComputeQuality(grasp, kFrame, kHalfAngle).lower;
+         return grasp::ComputeQuality(grasp, kFrame, kFrictionAngle).lower;
        },
        kMostForPyramids},
       {"Qhull, 8 sides", [](const grasp::Grasp& grasp) { return QualityOfPyramids(grasp, 8); },

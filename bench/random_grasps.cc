@@ -7,14 +7,14 @@
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 namespace regrasp {
 namespace {
 
 /// Maximum required friction angle: grasps that need more friction are not planned in practice.
-constexpr double kMostCritical = Radians(50);
-constexpr double kLeastCritical = Radians(0.5);
+constexpr double kMostRequired = Radians(50);
+constexpr double kLeastRequired = Radians(0.5);
 /// Minimum quality of the grasp before a switch.
 constexpr double kFirstQuality = 0.03;
 
@@ -25,22 +25,22 @@ grasp::Grasp DrawGrasp(const GraspedBody& body, RandomStream& random) {
 }
 
 /// Return the required friction angle of a grasp; nullopt if the grasp is not worth a replay.
-std::optional<grasp::RequiredHalfAngle> Required(const GraspedBody& body,
-                                                 const grasp::Grasp& grasp) {
-  if (!grasp::IsForceClosure(grasp, body.object().wrench_frame(), kMostCritical))
+std::optional<grasp::RequiredFrictionAngle> Required(const GraspedBody& body,
+                                                     const grasp::Grasp& grasp) {
+  if (!grasp::IsForceClosure(grasp, body.object().wrench_frame(), kMostRequired))
     return std::nullopt;
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, body.object().wrench_frame());
-  if (!required || required->upper > kMostCritical || required->upper < kLeastCritical) {
+  const auto required = grasp::ComputeRequiredFrictionAngle(grasp, body.object().wrench_frame());
+  if (!required || required->upper > kMostRequired || required->upper < kLeastRequired) {
     return std::nullopt;
   }
   return required;
 }
 
 /// Return a plan that holds the grasp.
-plan::Plan PlanOf(const GraspedBody& body, const grasp::Grasp& initial, double half_angle) {
+plan::Plan PlanOf(const GraspedBody& body, const grasp::Grasp& initial, double friction_angle) {
   plan::Plan plan;
   plan.dimension = body.object().dimension();
-  plan.half_angle = half_angle;
+  plan.friction_angle = friction_angle;
   plan.fingers = body.hold() + 1;
   plan.initial = plan::FingersInOrder(initial);
   plan.goal = initial;
@@ -78,10 +78,10 @@ std::vector<RandomCase> DrawSwitches(const GraspedBody& body, int count, std::ui
     const auto required = Required(body, second);
     if (!required) continue;
     const double ratio = DrawRatio(random);
-    const double half_angle = std::atan(ratio * std::tan(required->upper));
-    if (!grasp::QualityAtLeast(first, body.object().wrench_frame(), half_angle, kFirstQuality))
+    const double friction_angle = std::atan(ratio * std::tan(required->upper));
+    if (!grasp::QualityAtLeast(first, body.object().wrench_frame(), friction_angle, kFirstQuality))
       continue;
-    RandomCase drawn{PlanOf(body, first, half_angle), second, ratio, *required};
+    RandomCase drawn{PlanOf(body, first, friction_angle), second, ratio, *required};
     drawn.plan.steps.push_back(
         plan::Switch{{{FingerIndex(body.hold()), second.back()}}, {FingerIndex(0)}});
     drawn.plan.goal = second;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "planner/sampling/surface_sampler.h"
@@ -45,7 +45,7 @@ struct RandomCase {
   plan::Plan plan;
   grasp::Grasp examined;
   double ratio = 0;  ///< friction coefficient of the plan over the required one of `examined`
-  grasp::RequiredHalfAngle required;  ///< required friction angle of `examined`
+  grasp::RequiredFrictionAngle required;  ///< required friction angle of `examined`
 };
 
 /// Draw static grasps with a required friction angle between 0.5° and 50°, as plans that only hold.

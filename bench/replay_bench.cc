@@ -51,7 +51,7 @@ namespace {
 
 using namespace regrasp;
 
-constexpr double kHalfAngleDegrees = 20;
+constexpr double kFrictionAngleDegrees = 20;
 
 /// A block whose contact patches are boxes, objects with mesh patches, convex and not, and a
 /// polygon.
@@ -73,11 +73,11 @@ Case MakeCase(const std::string& model) {
                       {.object = &object,
                        .start = random,
                        .goal = random,
-                       .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+                       .criteria = {.friction_angle = Radians(kFrictionAngleDegrees)},
                        // for the plane, a seed whose plan has three switches
                        .seed = planar ? 2ULL : 0ULL});
   if (!result.plan) throw std::runtime_error(model + ": no plan to replay");
-  made.plan = plan::CheckPlan(object, *result.plan).located;
+  made.plan = plan::CheckPlan(object, *result.plan).projected;
   return made;
 }
 

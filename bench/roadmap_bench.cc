@@ -18,7 +18,7 @@ namespace {
 
 using namespace regrasp;
 
-constexpr double kHalfAngleDegrees = 20;
+constexpr double kFrictionAngleDegrees = 20;
 
 /// Measured models: a block with opposite contacts, and a convex solid with irregular faces, whose
 /// contacts are rarely opposite.
@@ -37,7 +37,7 @@ const object::Polyhedron& Model(std::int64_t index) {
 
 planning::PlanRequest RequestFor(const object::Polyhedron& solid, std::int64_t contacts) {
   return {.object = &solid,
-          .criteria = {.half_angle = Radians(kHalfAngleDegrees)},
+          .criteria = {.friction_angle = Radians(kFrictionAngleDegrees)},
           .parameters = roadmap::RoadmapParameters{.contact_points = static_cast<int>(contacts)}};
 }
 
@@ -65,7 +65,8 @@ void BM_TestEverySubset(benchmark::State& state) {
           for (int d = c + 1; d < count; ++d) {
             const std::array<grasp::Contact, 4> grasp = {p[a], p[b], p[c], p[d]};
             ++subsets;
-            vertices += grasp::IsForceClosure(grasp, frame, request.criteria.half_angle) ? 1 : 0;
+            vertices +=
+                grasp::IsForceClosure(grasp, frame, request.criteria.friction_angle) ? 1 : 0;
           }
         }
       }

@@ -23,13 +23,13 @@ set(regrasp_public_headers
   planner/grasp/finger_friction.h
   planner/grasp/force_closure.h
   planner/grasp/quality.h
-  planner/grasp/required_half_angle.h
+  planner/grasp/required_friction_angle.h
   # Plans: reading, writing, the analytic check.
   planner/motion/motion_segment.h
   planner/certificate/force_proof.h
   planner/plan/check.h
   planner/plan/grasp_io.h
-  planner/plan/locate.h
+  planner/plan/projection.h
   planner/plan/plan.h
   planner/plan/plan_io.h
   planner/plan/reason.h

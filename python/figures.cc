@@ -5,8 +5,8 @@
 
 #include "planner/base/error.h"
 #include "planner/plan/check.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
 #include "python/binding.h"
 #include "render/figures/plan_figure.h"
@@ -38,29 +38,29 @@ std::string DrawPlan(const PythonObject& object, const std::string& text, const 
     throw InputError(name + ": step " + std::to_string(step.index) + " (" + step.kind +
                      "): " + std::string(plan::ReasonName(step.reason)) + ": " + step.detail);
   }
-  return render::DrawSheet(*render::MakePanels(*object.file.object, check.located),
+  return render::DrawSheet(*render::MakePanels(*object.file.object, check.projected),
                            StyleOf(width_mm));
 }
 
 /// Draw one grasp of k x 3 values; in the plane z = 0.
 /// @throws InputError  if a contact is not on the object.
 std::string DrawGrasp(const PythonObject& object, const Values& points, const Values& normals,
-                      double half_angle, double width_mm) {
+                      double friction_angle, double width_mm) {
   const object::Object& body = *object.file.object;
-  const plan::LocatedGrasps located =
-      plan::LocateGrasps(body, {points.data(), static_cast<std::size_t>(points.size())},
-                         {normals.data(), static_cast<std::size_t>(normals.size())},
-                         static_cast<int>(points.shape(0)));
-  if (located.reasons[0] != plan::Reason::kNone) {
-    throw InputError("points: " + std::string(plan::ReasonName(located.reasons[0])));
+  const plan::ProjectedGrasps projected =
+      plan::ProjectGrasps(body, {points.data(), static_cast<std::size_t>(points.size())},
+                          {normals.data(), static_cast<std::size_t>(normals.size())},
+                          static_cast<int>(points.shape(0)));
+  if (projected.reasons[0] != plan::Reason::kNone) {
+    throw InputError("points: " + std::string(plan::ReasonName(projected.reasons[0])));
   }
   grasp::Grasp grasp;
-  for (std::size_t i = 0; i < located.points.size(); i += 3) {
+  for (std::size_t i = 0; i < projected.points.size(); i += 3) {
     grasp.push_back(
-        {Eigen::Vector3d::Map(&located.points[i]), Eigen::Vector3d::Map(&located.normals[i])});
+        {Eigen::Vector3d::Map(&projected.points[i]), Eigen::Vector3d::Map(&projected.normals[i])});
   }
   const plan::Plan hold =
-      plan::LocatePlan(body, validation::MakeHoldPlan(body, grasp, half_angle, object.scale));
+      plan::ProjectPlan(body, validation::MakeHoldPlan(body, grasp, friction_angle, object.scale));
   return render::DrawStepFigure(*render::MakePanels(body, hold), 0, StyleOf(width_mm));
 }
 

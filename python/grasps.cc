@@ -23,17 +23,17 @@ py::array_t<double> ValueArray(const std::vector<double>& values, bool asked) {
 /// Return decisions (0 no, 1 too close, 2 yes), bounds on the margin, required friction angle, and
 /// bounds on the quality.
 py::tuple JudgeGrasps(const Values& points, const Values& normals, const PythonObject* object,
-                      int dimension, double half_angle, double torsion, bool required, bool quality,
-                      int threads) {
+                      int dimension, double friction_angle, double torsion, bool required,
+                      bool quality, int threads) {
   const grasp::GraspArrays arrays = {{points.data(), static_cast<std::size_t>(points.size())},
                                      {normals.data(), static_cast<std::size_t>(normals.size())},
                                      static_cast<int>(points.shape(1))};
   grasp::JudgeOptions options;
-  options.half_angle = half_angle;
+  options.friction_angle = friction_angle;
   options.torsion = torsion;
   options.frame.dimension = dimension;
   if (object != nullptr) options.frame = object->file.object->wrench_frame();
-  options.required_half_angle = required;
+  options.required_friction_angle = required;
   options.quality = quality;
   options.threads = threads;
   grasp::GraspVerdicts verdicts;
@@ -51,9 +51,9 @@ py::tuple JudgeGrasps(const Values& points, const Values& normals, const PythonO
     lower.mutable_at(i) = verdict.margin_lower;
     upper.mutable_at(i) = verdict.margin_upper;
   }
-  return py::make_tuple(decisions, lower, upper, ValueArray(verdicts.required_half_angle, required),
-                        ValueArray(verdicts.quality, quality),
-                        ValueArray(verdicts.quality_upper, quality));
+  return py::make_tuple(
+      decisions, lower, upper, ValueArray(verdicts.required_friction_angle, required),
+      ValueArray(verdicts.quality, quality), ValueArray(verdicts.quality_upper, quality));
 }
 
 }  // namespace

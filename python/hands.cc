@@ -9,7 +9,7 @@
 #include "planner/base/in_blocks.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "python/binding.h"
 
 namespace regrasp::python {
@@ -21,16 +21,18 @@ namespace {
 using Values = py::array_t<double, py::array::c_style>;
 
 /// The angle of a coupled joint is not read; it follows from its independent joint.
-kinematics::Posture PostureOf(const kinematics::Finger& finger, const double* angles) {
-  kinematics::Posture posture = kinematics::Posture::Zero(finger.drives);
+kinematics::JointConfiguration ConfigurationOf(const kinematics::Finger& finger,
+                                               const double* angles) {
+  kinematics::JointConfiguration configuration =
+      kinematics::JointConfiguration::Zero(finger.drives);
   std::vector<bool> known(static_cast<std::size_t>(finger.drives), false);
   for (std::size_t j = 0; j < finger.joints.size(); ++j) {
     const auto drive = static_cast<std::size_t>(finger.joints[j].drive);
     if (known[drive] && finger.joints[j].follows) continue;
     known[drive] = true;
-    posture[finger.joints[j].drive] = kinematics::DriveAngle(finger.joints[j], angles[j]);
+    configuration[finger.joints[j].drive] = kinematics::DriveAngle(finger.joints[j], angles[j]);
   }
-  return posture;
+  return configuration;
 }
 
 /// Return the centres of the fingertip spheres in the palm frame, shape (N, F, 3), m.
@@ -44,7 +46,7 @@ py::array_t<double> TipsOf(const PythonHand& of, const Values& angles) {
     py::ssize_t joint = 0;
     for (py::ssize_t f = 0; f < fingers; ++f) {
       const kinematics::Finger& finger = hand.fingers[static_cast<std::size_t>(f)];
-      const auto tip = kinematics::TipAt(finger, PostureOf(finger, angles.data(g, joint)));
+      const auto tip = kinematics::TipAt(finger, ConfigurationOf(finger, angles.data(g, joint)));
       for (py::ssize_t i = 0; i < 3; ++i) out(g, f, i) = tip.centre[i];
       joint += static_cast<py::ssize_t>(finger.joints.size());
     }

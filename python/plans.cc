@@ -36,7 +36,7 @@ constexpr char kRandomAny[] = "random-any";
 struct PlanArguments {
   /// Text of a grasp file, "random" or "random-any"; with a hand it may be empty, for any grasp.
   std::string start, goal;
-  double half_angle = 0;
+  double friction_angle = 0;
   std::string planner = "auto";
   planning::Objective objective = planning::Objective::kSteps;
   std::uint64_t seed = 0;
@@ -97,7 +97,7 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
   planning::PlanRequest request;
   request.object = &body;
   request.object_name = object.file.file;
-  request.criteria.half_angle = given.half_angle;
+  request.criteria.friction_angle = given.friction_angle;
   request.criteria.min_quality = given.min_quality;
   request.hand.fingertip_radius = given.finger_radius;
   request.hand.torsion = given.torsion;
@@ -137,7 +137,8 @@ py::tuple FindPlan(const PythonObject& object, const PlanArguments& given, py::o
     }
     if (result.plan) {
       const plan::PlanCheck check = certificate::FinishPlan(
-          object.file, {.half_angle = given.half_angle, .scale = object.scale}, *result.plan);
+          object.file, {.friction_angle = given.friction_angle, .scale = object.scale},
+          *result.plan);
       if (!check.passed()) result.warnings.emplace_back("the checker fails this plan");
       text = plan::FormatPlan(*result.plan);
     }
@@ -161,7 +162,7 @@ void BindPlans(py::module_& module) {
       .def(py::init<>())
       .def_readwrite("start", &PlanArguments::start)
       .def_readwrite("goal", &PlanArguments::goal)
-      .def_readwrite("half_angle", &PlanArguments::half_angle)
+      .def_readwrite("half_angle", &PlanArguments::friction_angle)
       .def_readwrite("planner", &PlanArguments::planner)
       .def_readwrite("objective", &PlanArguments::objective)
       .def_readwrite("seed", &PlanArguments::seed)

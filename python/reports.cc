@@ -163,7 +163,7 @@ void BindReports(py::module_& module) {
         [=](ValidationOptions& of, const Value& value) { of.*part.*member = value; });
   };
   options.def(py::init<>())
-      .def_readwrite("half_angle", &ValidationOptions::half_angle)
+      .def_readwrite("half_angle", &ValidationOptions::friction_angle)
       .def_readwrite("torsion", &ValidationOptions::torsion)
       .def_readwrite("replay_by_hand", &ValidationOptions::replay_by_hand)
       .def("set_engine",
@@ -183,10 +183,10 @@ void BindReports(py::module_& module) {
         of.hand.tolerance.angle_rad = Radians(angle_deg);
       });
   add("mass_kg", &ValidationOptions::replay, &sim::ReplayOptions::mass_kg);
-  add("squeeze_N", &ValidationOptions::replay, &sim::ReplayOptions::squeeze_N);
-  add("shake", &ValidationOptions::replay, &sim::ReplayOptions::shake);
+  add("squeeze_N", &ValidationOptions::replay, &sim::ReplayOptions::grasp_force_N);
+  add("shake", &ValidationOptions::replay, &sim::ReplayOptions::disturbance_ratio);
   add("tolerance", &ValidationOptions::replay, &sim::ReplayOptions::tolerance);
-  add("stress", &ValidationOptions::replay, &sim::ReplayOptions::stress);
+  add("stress", &ValidationOptions::replay, &sim::ReplayOptions::resisted_wrench);
   py::class_<PythonReport>(module, "Report")
       .def_property_readonly(
           "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })

@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/object/given_points.h"
 #include "planner/object/object.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "report/condition_table.h"
 #include "report/report_table.h"
 
@@ -23,7 +23,7 @@ constexpr double kMuSteps = 1000;
 
 /// Return the required friction angle, degrees, as in the detail of the failure.
 std::string RequiredText(const ReportStep& step, const Report& report) {
-  return FormatRequiredDegrees(Degrees(step.check.required->upper), Degrees(report.half_angle))
+  return FormatRequiredDegrees(Degrees(step.check.required->upper), Degrees(report.friction_angle))
       .value;
 }
 
@@ -32,7 +32,7 @@ std::string DegreesAsked(const ReportStep& step, const Report& report) {
   return step.check.required ? " " + RequiredText(step, report) : "";
 }
 
-std::string MendFriction(const ReportStep& step, const Report& report) {
+std::string FixOfFriction(const ReportStep& step, const Report& report) {
   const std::string other =
       "plan with more friction margin (plan --optimize margin, or plan at less "
       "friction than you check)";
@@ -45,7 +45,7 @@ std::string MendFriction(const ReportStep& step, const Report& report) {
 }
 
 /// Return a fix for the likely cause of a failed replay of a step that passes the analysis.
-std::string MendReplay(const ReportStep& step, const Report& report) {
+std::string FixOfReplay(const ReportStep& step, const Report& report) {
   if (report.settings && report.settings->hand) {
     return "plan with more margin (plan at less friction than you check, --min-quality 0.05 or "
            "more), "
@@ -75,7 +75,7 @@ std::string MendReplay(const ReportStep& step, const Report& report) {
 }
 
 /// More clearance helps only if the fault has a clearance.
-std::string MendCollision(const plan::Fault& fault) {
+std::string FixOfCollision(const plan::Fault& fault) {
   if (fault.hand && !fault.hand->gap_m) {
     return "plan with a larger --clearance, or with motions in which fingertips roll less";
   }
@@ -86,7 +86,7 @@ std::string MendCollision(const plan::Fault& fault) {
          FormatLength(*fault.hand->gap_m);
 }
 
-std::string MendReach(const plan::Fault& fault) {
+std::string FixOfReach(const plan::Fault& fault) {
   if (fault.finger_radius > 0) {
     return "use thinner fingers (--finger-radius), or plan for fingers of that radius (plan "
            "--finger-radius)";
@@ -100,7 +100,7 @@ std::string NormalText(const ReportStep& step, const Report& report) {
   return expected.empty() ? "" : ": " + plan::VectorText(expected.front().n, report.dimension);
 }
 
-std::string MendOf(const ReportStep& step, const Report& report) {
+std::string SuggestedFixOf(const ReportStep& step, const Report& report) {
   switch (step.reason()) {
     case Reason::kOffSurface:
       return "use a point on the surface; if many are off, the plan was made for another object or "
@@ -120,12 +120,12 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kLeavesFace:
       return "add a waypoint at each border that a finger crosses";
     case Reason::kNotForceClosure:
-      return MendFriction(step, report);
+      return FixOfFriction(step, report);
     case Reason::kNotProved:
       return "use slightly more friction (--friction-angle" + DegreesAsked(step, report) +
              "), add waypoints, or pass --allow undecided if few pieces have no proof";
     case Reason::kUnreachable:
-      return MendReach(step.fault());
+      return FixOfReach(step.fault());
     case Reason::kOffPoint:
       return "use contacts at points of the object's file, connected by switches (plan --planner "
              "points=given)";
@@ -138,7 +138,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kJointLimit:
       return "use a joint configuration within the limits, or a contact that it reaches";
     case Reason::kHandCollides:
-      return MendCollision(step.fault());
+      return FixOfCollision(step.fault());
     case Reason::kTorqueLimit:
       return "use a smaller --grasp-force, a lighter object (--mass), or joint configurations in "
              "which "
@@ -159,7 +159,7 @@ std::string MendOf(const ReportStep& step, const Report& report) {
     case Reason::kContactLost:
     case Reason::kSlipped:
     case Reason::kObjectMoved:
-      return MendReplay(step, report);
+      return FixOfReplay(step, report);
     case Reason::kNotStatic:
       return "use a smaller --grasp-force or stiffer servos, or plan with more friction margin "
              "(plan at less friction than you check)";
@@ -306,7 +306,9 @@ std::string Failure::headline() const {
          (what.empty() ? "" : ": " + what);
 }
 
-std::string Failure::line() const { return headline() + "; why: " + why + "; help: " + mend; }
+std::string Failure::line() const {
+  return headline() + "; why: " + why + "; help: " + suggested_fix;
+}
 
 std::optional<Failure> DescribeFailure(const Report& report) {
   const auto failed = std::ranges::find(report.steps, Verdict::kFail, &ReportStep::verdict);
@@ -332,7 +334,7 @@ std::optional<Failure> DescribeFailure(const Report& report) {
   }
   return Failure{
       failed->check.index, failed->check.kind,     std::string(plan::ReasonName(failed->reason())),
-      failed->detail(),    WhyOf(*failed, report), MendOf(*failed, report)};
+      failed->detail(),    WhyOf(*failed, report), SuggestedFixOf(*failed, report)};
 }
 
 std::string VerdictHeadline(const Report& report) {
@@ -363,7 +365,7 @@ std::string HeadingText(const Report& report) {
 std::string FormatFailure(const Report& report) {
   const auto failure = DescribeFailure(report);
   if (!failure) return "";
-  return failure->headline() + "\n  why: " + failure->why + "\n  help: " + failure->mend +
+  return failure->headline() + "\n  why: " + failure->why + "\n  help: " + failure->suggested_fix +
          "\n  more: regrasp validate --explain " + failure->reason + "\n";
 }
 

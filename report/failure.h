@@ -19,8 +19,8 @@ struct Failure {
   std::string reason;         ///< "slipped", or kTrialsFailed
   /// Description of the fault with number and unit: "finger 2 slipped by 300 µm".
   std::string what;
-  std::string why;   ///< limit that is exceeded, and the likely cause if one was found
-  std::string mend;  ///< suggested fix
+  std::string why;            ///< limit that is exceeded, and the likely cause if one was found
+  std::string suggested_fix;  ///< suggested fix
 
   /// Return "step 1 (align) fails: slipped: finger 2 slipped by 300 µm …". For trials:
   /// "trials-failed: 6 of 20 trials with noise fail: 4 slipped, …".

@@ -61,9 +61,10 @@ Element MakeSuite(const JunitSuite& suite) {
 
 }  // namespace
 
-std::string JunitText(const std::string& detail, const std::string& why, const std::string& mend) {
+std::string JunitText(const std::string& detail, const std::string& why,
+                      const std::string& suggested_fix) {
   std::string text = detail;
-  for (const auto& [name, said] : {std::pair{"why", &why}, {"help", &mend}}) {
+  for (const auto& [name, said] : {std::pair{"why", &why}, {"help", &suggested_fix}}) {
     if (!said->empty()) text += std::string("\n") + name + ": " + *said;
   }
   return text;
@@ -101,7 +102,8 @@ JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& fol
         {.name = "step " + std::to_string(step.check.index) + " " + step.check.kind,
          .outcome = OutcomeOf(VerdictName(step.verdict())),
          .message = std::string(plan::ReasonName(step.reason())),
-         .text = JunitText(step.detail(), failed ? failure->why : "", failed ? failure->mend : ""),
+         .text = JunitText(step.detail(), failed ? failure->why : "",
+                           failed ? failure->suggested_fix : ""),
          .picture = step.frame.empty() ? "" : (folder / step.frame).string()});
   }
   if (report.trials) {
@@ -110,7 +112,7 @@ JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& fol
         {.name = "trials",
          .outcome = enough ? JunitOutcome::kPassed : JunitOutcome::kFailed,
          .message = enough ? "" : kTrialsFailed,
-         .text = failure ? JunitText(failure->what, failure->why, failure->mend) : ""});
+         .text = failure ? JunitText(failure->what, failure->why, failure->suggested_fix) : ""});
   }
   if (report.conditions) AddConditionCases(*report.conditions, suite);
   return suite;

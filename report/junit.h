@@ -31,7 +31,7 @@ struct JunitSuite {
 /// @param detail     description of the fault, as in report.json.
 /// @param why, mend  reason and suggested fix, as in report.json.
 [[nodiscard]] std::string JunitText(const std::string& detail, const std::string& why,
-                                    const std::string& mend);
+                                    const std::string& suggested_fix);
 
 /// Return the outcome for an entry's verdict: "pass", "fail" or "skipped".
 [[nodiscard]] JunitOutcome OutcomeOf(std::string_view verdict);

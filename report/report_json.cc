@@ -12,7 +12,7 @@
 #include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report_table.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/world/motion_monitor.h"
 
@@ -52,14 +52,14 @@ Json MarginOf(const sim::FingerMargins& margins, FingerIndex finger) {
 
 Json FingersJson(const sim::StepReplay& replay) {
   std::set<FingerIndex> fingers;
-  for (const sim::FingerMargins* margins : {&replay.rest_margins, &replay.shake_margins}) {
+  for (const sim::FingerMargins* margins : {&replay.static_margins, &replay.disturbance_margins}) {
     for (const auto& [finger, margin] : *margins) fingers.insert(finger);
   }
   Json json = Json::array();
   for (const FingerIndex finger : fingers) {
     json.push_back({{"finger", finger},
-                    {"rest_margin_deg", MarginOf(replay.rest_margins, finger)},
-                    {"shake_margin_deg", MarginOf(replay.shake_margins, finger)}});
+                    {"rest_margin_deg", MarginOf(replay.static_margins, finger)},
+                    {"shake_margin_deg", MarginOf(replay.disturbance_margins, finger)}});
   }
   return json;
 }
@@ -75,7 +75,7 @@ Json MotionJson(const sim::StepMotion& motion) {
           {"give_m", motion.give_m},
           {"slip_m", motion.slip_m},
           {"contact_lost", motion.contact_lost},
-          {"shake_margin_deg", DegreesOrNull(sim::SmallestMargin(motion.shake_margins))}};
+          {"shake_margin_deg", DegreesOrNull(sim::SmallestMargin(motion.disturbance_margins))}};
 }
 
 Json HandJson(const sim::HandMeasures& measures) {
@@ -133,15 +133,15 @@ const char* EngineName(sim::EngineChoice engine) {
   return "";
 }
 
-const char* SqueezeSourceName(sim::SqueezeSource source) {
+const char* GraspForceSourceName(sim::GraspForceSource source) {
   switch (source) {
-    case sim::SqueezeSource::kShake:
+    case sim::GraspForceSource::kDisturbance:
       return "shake";
-    case sim::SqueezeSource::kHand:
+    case sim::GraspForceSource::kHand:
       return "hand";
-    case sim::SqueezeSource::kTorques:
+    case sim::GraspForceSource::kTorques:
       return "torques";
-    case sim::SqueezeSource::kGiven:
+    case sim::GraspForceSource::kGiven:
       return "option";
   }
   return "";
@@ -173,8 +173,8 @@ Json SimulationJson(const sim::StepReplay& replay) {
                {"contact_lost", replay.contact_lost},
                {"cone_margin_deg",
                 {{"motion", DegreesOrNull(sim::SmallestMargin(replay.motion_margins))},
-                 {"rest", DegreesOrNull(sim::SmallestMargin(replay.rest_margins))},
-                 {"shakes", DegreesOrNull(sim::SmallestMargin(replay.shake_margins))}}},
+                 {"rest", DegreesOrNull(sim::SmallestMargin(replay.static_margins))},
+                 {"shakes", DegreesOrNull(sim::SmallestMargin(replay.disturbance_margins))}}},
                {"fingers", FingersJson(replay)}};
   if (replay.hand) json["hand"] = HandJson(*replay.hand);
   return json;
@@ -187,10 +187,10 @@ Json ProtocolsJson(const sim::StepReplay& replay) {
   return json;
 }
 
-Json StressJson(const std::vector<sim::DirectionStress>& stress) {
+Json ResistedWrenchesJson(const std::vector<sim::ResistedWrench>& resisted_wrench) {
   Json json = Json::array();
-  for (const sim::DirectionStress& direction : stress) {
-    json.push_back({{"direction", sim::PushName(direction.push)},
+  for (const sim::ResistedWrench& direction : resisted_wrench) {
+    json.push_back({{"direction", sim::DisturbanceName(direction.disturbance)},
                     {"replay", direction.replay},
                     {"analysis", direction.analysis}});
   }
@@ -213,33 +213,34 @@ Json EnginesJson(const sim::StepReplay& replay, const std::optional<sim::Disagre
           {"cause", CauseJson(between)}};
 }
 
-Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction, double half_angle) {
+Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction,
+                    double friction_angle) {
   return {{"finger", finger},
           {"needed", friction.needed},
           {"required_half_angle_deg", Degrees(friction.required)},
-          {"margin_deg", Degrees(half_angle - friction.required)},
+          {"margin_deg", Degrees(friction_angle - friction.required)},
           {"without_half_angle_deg", DegreesOrNull(friction.without)}};
 }
 
 namespace {
 
 Json MakeSettings(const Report& report) {
-  Json settings = {{"friction_half_angle_deg", Degrees(report.half_angle)},
-                   {"mu", std::tan(report.half_angle)}};
+  Json settings = {{"friction_half_angle_deg", Degrees(report.friction_angle)},
+                   {"mu", std::tan(report.friction_angle)}};
   if (report.torsion > 0) settings["torsion"] = report.torsion;
   if (report.finger_radius) settings["finger_radius"] = *report.finger_radius;
   if (!report.settings) return settings;
   const sim::ReplaySettings& replay = *report.settings;
   settings["mu"] = replay.mu;
   settings["mass_kg"] = replay.mass_kg;
-  settings["squeeze_N"] = replay.squeeze_N;
-  settings["squeeze_source"] = SqueezeSourceName(replay.squeeze_source);
+  settings["squeeze_N"] = replay.grasp_force_N;
+  settings["squeeze_source"] = GraspForceSourceName(replay.grasp_force_source);
   settings["gravity_m_s2"] = replay.gravity_m_s2;
   if (report.dimension == 2) settings["thickness_m"] = replay.thickness_m;
-  settings["shake"] = replay.shake;
+  settings["shake"] = replay.disturbance_ratio;
   settings["engine"] = EngineName(replay.engine);
   settings["protocol"] = ProtocolName(replay.protocol);
-  settings["stress"] = replay.stress;
+  settings["stress"] = replay.resisted_wrench;
   settings["tolerance"] = replay.tolerance;
   settings["align"] = replay.align == sim::AlignChoice::kSlide ? "slide" : "imitate";
   settings["fingertip_radius_m"] = replay.fingertip_radius_m;
@@ -257,16 +258,16 @@ Json MakeForceClosure(const ReportStep& step) {
           {"required_half_angle_deg", required ? Json(Degrees(required->upper)) : Json(nullptr)}};
 }
 
-Json MakeWeakestFinger(const ReportStep& step, double half_angle) {
+Json MakeWeakestFinger(const ReportStep& step, double friction_angle) {
   if (step.skipped || !step.weakest_finger) return nullptr;
-  return FingerNeedJson(step.weakest_finger->finger, step.weakest_finger->friction, half_angle);
+  return FingerNeedJson(step.weakest_finger->finger, step.weakest_finger->friction, friction_angle);
 }
 
 /// Return the smallest margin of each kind over the whole plan, with its place.
 Json MakeMargins(const Report& report) {
   Json finger = nullptr;
   if (const plan::EntryIndex step = report.weakest_finger_step(); step.valid()) {
-    finger = MakeWeakestFinger(report.steps[step], report.half_angle);
+    finger = MakeWeakestFinger(report.steps[step], report.friction_angle);
     finger["step"] = int{step};
   }
   Json required = nullptr;
@@ -274,12 +275,12 @@ Json MakeMargins(const Report& report) {
     const double angle = report.steps[step].check.required->upper;
     required = {{"step", int{step}}, {"required_half_angle_deg", Degrees(angle)}};
   }
-  Json stress = nullptr;
-  if (const auto weakest = FindWeakestPush(report)) {
-    stress = StressJson({weakest->stress})[0];
-    stress["step"] = int{weakest->step};
+  Json resisted_wrench = nullptr;
+  if (const auto weakest = FindWeakestDisturbance(report)) {
+    resisted_wrench = ResistedWrenchesJson({weakest->resisted_wrench})[0];
+    resisted_wrench["step"] = int{weakest->step};
   }
-  return {{"friction", required}, {"weakest_finger", finger}, {"stress", stress}};
+  return {{"friction", required}, {"weakest_finger", finger}, {"stress", resisted_wrench}};
 }
 
 Json MakeAlignMode(const std::optional<sim::StepReplay>& replay) {
@@ -320,7 +321,8 @@ void AddReplay(const ReportStep& step, Json& json) {
   if (!step.replay || step.skipped) return;
   json["protocols"] = ProtocolsJson(*step.replay);
   if (step.replay->ode) json["engines"] = EnginesJson(*step.replay, step.engines);
-  if (!step.replay->stress.empty()) json["stress"] = StressJson(step.replay->stress);
+  if (!step.replay->resisted_wrench.empty())
+    json["stress"] = ResistedWrenchesJson(step.replay->resisted_wrench);
 }
 
 Json MakeStep(const ReportStep& step, const Report& report) {
@@ -336,7 +338,7 @@ Json MakeStep(const ReportStep& step, const Report& report) {
                {"certificate", MakeCertificate(step.certificate)},
                {"simulation", step.replay ? SimulationJson(*step.replay) : Json(nullptr)},
                {"cause", CauseJson(step.disagreement)},
-               {"weakest_finger", MakeWeakestFinger(step, report.half_angle)},
+               {"weakest_finger", MakeWeakestFinger(step, report.friction_angle)},
                {"frame", TextOrNull(step.frame)}};
   AddReplay(step, json);
   AddRegion(step.region, json);
@@ -358,7 +360,7 @@ Json MakeGrasp(const Report& report) {
   const GraspReport& grasp = *report.grasp;
   Json fingers = Json::array();
   for (FingerIndex finger{0}; finger < std::ssize(grasp.fingers); ++finger) {
-    fingers.push_back(FingerNeedJson(finger, grasp.fingers[finger], report.half_angle));
+    fingers.push_back(FingerNeedJson(finger, grasp.fingers[finger], report.friction_angle));
   }
   return {{"file", report.plan_file},
           {"sha256", report.plan_sha256},
@@ -403,7 +405,7 @@ Json ReportJson(const Report& report) {
     Json& failed = in_step ? json["steps"][failure->entry] : json[failure->kind];
     if (!in_step) failed["detail"] = failure->what;
     failed["why"] = failure->why;
-    failed["mend"] = failure->mend;
+    failed["mend"] = failure->suggested_fix;
   }
   return json;
 }

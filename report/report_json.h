@@ -50,7 +50,7 @@ template <class Value>
 [[nodiscard]] const char* EngineName(sim::EngineChoice engine);
 
 /// Return the name of the source in report.json, such as "hand" or "option".
-[[nodiscard]] const char* SqueezeSourceName(sim::SqueezeSource source);
+[[nodiscard]] const char* GraspForceSourceName(sim::GraspForceSource source);
 
 /// Return the member `simulation` of an entry: motion, slip, friction margins.
 [[nodiscard]] Json SimulationJson(const sim::StepReplay& replay);
@@ -67,15 +67,15 @@ template <class Value>
 [[nodiscard]] Json EnginesJson(const sim::StepReplay& replay,
                                const std::optional<sim::Disagreement>& between);
 
-/// Return the member `stress`: an array with an element for each direction.
-[[nodiscard]] Json StressJson(const std::vector<sim::DirectionStress>& stress);
+/// Return the member `resisted_wrench`: an array with an element for each direction.
+[[nodiscard]] Json ResistedWrenchesJson(const std::vector<sim::ResistedWrench>& resisted_wrench);
 
 /// Return the member `cause`; null if nothing disagrees.
 [[nodiscard]] Json CauseJson(const std::optional<sim::Disagreement>& disagreement);
 
 /// Return the friction that one finger requires.
 [[nodiscard]] Json FingerNeedJson(FingerIndex finger, const grasp::FingerFriction& friction,
-                                  double half_angle);
+                                  double friction_angle);
 
 /// Return the content of report.json without its seal (FormatReportJson).
 [[nodiscard]] Json ReportJson(const Report& report);

@@ -13,38 +13,39 @@
 #include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::report {
 
-std::string SqueezeText(const sim::ReplaySettings& settings) {
+std::string GraspForceText(const sim::ReplaySettings& settings) {
   const double weight = settings.mass_kg * sim::kGravity;
-  const std::string squeeze = FormatShort(settings.squeeze_N) + " N, " +
-                              FormatShort(settings.squeeze_N / weight) + " times the weight";
-  switch (settings.squeeze_source) {
-    case sim::SqueezeSource::kShake:
-      return squeeze +
-             (settings.shake >= sim::kLeastShakeForSqueeze
+  const std::string grasp_force = FormatShort(settings.grasp_force_N) + " N, " +
+                                  FormatShort(settings.grasp_force_N / weight) +
+                                  " times the weight";
+  switch (settings.grasp_force_source) {
+    case sim::GraspForceSource::kDisturbance:
+      return grasp_force +
+             (settings.disturbance_ratio >= sim::kLeastDisturbanceForGraspForce
                   ? ": default, the weight is 10 % of the disturbance"
                   : ": default, the weight is negligible") +
              "; not realistic for a hand, use --grasp-force realistic";
-    case sim::SqueezeSource::kHand:
-      if (settings.squeeze_N >= sim::kStrongestGrip_N) {
-        return squeeze + ": largest grasp force of a hand, less than required here";
+    case sim::GraspForceSource::kHand:
+      if (settings.grasp_force_N >= sim::kStrongestGrip_N) {
+        return grasp_force + ": largest grasp force of a hand, less than required here";
       }
-      return squeeze + ": " + FormatShort(sim::kGripSafety) +
+      return grasp_force + ": " + FormatShort(sim::kGripSafety) +
              " times the force that supports the weight in the weakest grasp";
-    case sim::SqueezeSource::kTorques:
-      return squeeze +
+    case sim::GraspForceSource::kTorques:
+      return grasp_force +
              ": allowed by the actuator torques, at most 12 weights (6 if a force limit is "
              "unknown), "
              "or 4 N";
-    case sim::SqueezeSource::kGiven:
-      return squeeze + ": given by --grasp-force";
+    case sim::GraspForceSource::kGiven:
+      return grasp_force + ": given by --grasp-force";
   }
-  return squeeze;
+  return grasp_force;
 }
 
 namespace {
@@ -52,42 +53,44 @@ namespace {
 std::string Percent(double share) { return FormatShort(100 * share, 2); }
 
 /// Return "+x" for a force, "t+x" for a torque.
-std::string ShortName(const sim::Push& push) {
-  return std::string(push.turn ? "t" : "") + (push.sign > 0 ? "+" : "-") + "xyz"[push.axis];
+std::string ShortName(const sim::Disturbance& disturbance) {
+  return std::string(disturbance.turn ? "t" : "") + (disturbance.sign > 0 ? "+" : "-") +
+         "xyz"[disturbance.axis];
 }
 
 }  // namespace
 
-std::optional<WeakestPush> FindWeakestPush(const Report& report) {
-  std::optional<WeakestPush> weakest;
+std::optional<WeakestDisturbance> FindWeakestDisturbance(const Report& report) {
+  std::optional<WeakestDisturbance> weakest;
   for (const ReportStep& step : report.steps) {
     if (!step.replay || step.skipped) continue;
-    for (const sim::DirectionStress& stress : step.replay->stress) {
-      if (weakest && stress.replay >= weakest->stress.replay) continue;
-      weakest = WeakestPush{step.check.index, stress};
+    for (const sim::ResistedWrench& resisted_wrench : step.replay->resisted_wrench) {
+      if (weakest && resisted_wrench.replay >= weakest->resisted_wrench.replay) continue;
+      weakest = WeakestDisturbance{step.check.index, resisted_wrench};
     }
   }
   return weakest;
 }
 
-std::string FormatStressTable(const Report& report) {
-  const auto weakest = FindWeakestPush(report);
+std::string FormatResistedWrenchTable(const Report& report) {
+  const auto weakest = FindWeakestDisturbance(report);
   if (!weakest) return "";
   std::vector<TextRow> rows = {{"step"}};
-  for (const sim::Push& push : sim::PushDirections(report.dimension)) {
-    rows.front().push_back(ShortName(push));
+  for (const sim::Disturbance& disturbance : sim::DisturbanceDirections(report.dimension)) {
+    rows.front().push_back(ShortName(disturbance));
   }
   for (const ReportStep& step : report.steps) {
-    if (!step.replay || step.skipped || step.replay->stress.empty()) continue;
+    if (!step.replay || step.skipped || step.replay->resisted_wrench.empty()) continue;
     TextRow row = {std::to_string(step.check.index)};
-    for (const sim::DirectionStress& stress : step.replay->stress)
-      row.push_back(Percent(stress.replay));
+    for (const sim::ResistedWrench& resisted_wrench : step.replay->resisted_wrench)
+      row.push_back(Percent(resisted_wrench.replay));
     rows.push_back(row);
   }
   return "largest resisted disturbance (t: torque) in percent of the grasp force:\n" +
          FormatRows(rows) + "least: step " + std::to_string(weakest->step) + ", " +
-         sim::PushName(weakest->stress.push) + ", " + Percent(weakest->stress.replay) +
-         " % in the replay, " + Percent(weakest->stress.analysis) + " % by analysis\n";
+         sim::DisturbanceName(weakest->resisted_wrench.disturbance) + ", " +
+         Percent(weakest->resisted_wrench.replay) + " % in the replay, " +
+         Percent(weakest->resisted_wrench.analysis) + " % by analysis\n";
 }
 
 namespace {
@@ -221,15 +224,15 @@ TextRow MakeRow(const ReportStep& step, const Columns& columns) {
 }
 
 std::string FormatWeakest(const Report& report) {
-  const std::string weakest = plan::WeakestStepText(report.checks(), report.half_angle);
+  const std::string weakest = plan::WeakestStepText(report.checks(), report.friction_angle);
   return weakest.empty() ? "" : "weakest: " + weakest + "\n";
 }
 
 /// Return the friction that a finger requires, or that the other fingers require without it.
-std::string NeedText(const grasp::FingerFriction& finger, double half_angle,
+std::string NeedText(const grasp::FingerFriction& finger, double friction_angle,
                      const std::string& what) {
   const auto [needed, available] = FormatRequiredDegrees(
-      Degrees(finger.needed ? finger.required : *finger.without), Degrees(half_angle));
+      Degrees(finger.needed ? finger.required : *finger.without), Degrees(friction_angle));
   return (finger.needed ? ", which alone requires " : ", without which the others require ") +
          what + needed + " of " + available + " degrees\n";
 }
@@ -240,7 +243,7 @@ std::string FormatGraspLines(const Report& report) {
   if (weakest < 0) return "";
   return "quality: " + grasp::QualityText(report.grasp->quality) + "\nweakest: finger " +
          std::to_string(weakest) +
-         NeedText(report.grasp->fingers[weakest], report.half_angle, "a friction angle of ");
+         NeedText(report.grasp->fingers[weakest], report.friction_angle, "a friction angle of ");
 }
 
 /// Format the disagreements of steps that pass. A failure includes its own cause.
@@ -281,7 +284,7 @@ std::string FormatWeakestFinger(const Report& report) {
   const ReportStep& step = report.steps[index];
   const sim::NeedOfFinger& need = *step.weakest_finger;
   return "weakest finger: " + std::to_string(need.finger) + " in step " + std::to_string(index) +
-         NeedText(need.friction, report.half_angle, "");
+         NeedText(need.friction, report.friction_angle, "");
 }
 
 /// Format the weakest point of a plan whose steps pass. A plan that fails prints its failure
@@ -305,7 +308,7 @@ std::string FormatBody(const Report& report) {
               ? "contacts: at given points, at most " +
                     FormatLength(*report.farthest_from_points * report.scale) + " off\n"
               : "") +
-         (report.settings ? "grasp force: " + SqueezeText(*report.settings) + "\n" : "") +
+         (report.settings ? "grasp force: " + GraspForceText(*report.settings) + "\n" : "") +
          (report.settings && report.settings->hand
               ? "limits: " + LimitsText(report.settings->hand->limits) + "\n"
               : "");
@@ -341,7 +344,7 @@ std::string FormatReportTable(const Report& report) {
   return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
          FormatEngines(report) + FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
-         FormatStressTable(report) + FormatTrials(report) + FormatConditionTable(report) +
+         FormatResistedWrenchTable(report) + FormatTrials(report) + FormatConditionTable(report) +
          FormatVerdict(report);
 }
 

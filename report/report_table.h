@@ -12,21 +12,21 @@
 namespace regrasp::report {
 
 /// Return the grasp force and its reason: "2119 N, 1000 times the weight: …".
-[[nodiscard]] std::string SqueezeText(const sim::ReplaySettings& settings);
+[[nodiscard]] std::string GraspForceText(const sim::ReplaySettings& settings);
 
 /// Weakest direction of all static grasps of a report, measured by the replay.
-struct WeakestPush {
+struct WeakestDisturbance {
   plan::EntryIndex step{0};
-  sim::DirectionStress stress;
+  sim::ResistedWrench resisted_wrench;
 };
 
 /// Return the weakest direction; nullopt if no entry has measurements.
-[[nodiscard]] std::optional<WeakestPush> FindWeakestPush(const Report& report);
+[[nodiscard]] std::optional<WeakestDisturbance> FindWeakestDisturbance(const Report& report);
 
 /// Format the resisted wrench of each entry and direction, in percent of the grasp force.
 /// The replay measures it. The table also has the smallest value, and that of the analysis. The
 /// result is empty if there are no measurements.
-[[nodiscard]] std::string FormatStressTable(const Report& report);
+[[nodiscard]] std::string FormatResistedWrenchTable(const Report& report);
 
 /// Return the member `trials` of report.json (docs/formats.md).
 [[nodiscard]] Json TrialsJson(const sim::TrialSummary& summary);

@@ -43,7 +43,7 @@ std::string Statement(const PlanOutcome& plan) {
                             : "Step " + std::to_string(failure->entry) + " (" + failure->kind + ")";
   return where + ": " + failure->reason + "." +
          (failure->what.empty() ? "" : " " + report::Capitalized(failure->what) + ".") +
-         report::WhyAndMend(failure->why, failure->mend);
+         report::CauseAndFix(failure->why, failure->suggested_fix);
 }
 
 std::string VerdictWord(const PlanOutcome& plan) {
@@ -66,8 +66,9 @@ std::string VerdictWord(const PlanOutcome& plan) {
 /// because a margin elsewhere does not help.
 std::string MarginText(const PlanOutcome& plan) {
   const ReportSummary& report = *plan.report;
-  if (!report.weakest_step || !report.required_half_angle_deg || !report.half_angle_deg) return "";
-  const double margin = *report.half_angle_deg - *report.required_half_angle_deg;
+  if (!report.weakest_step || !report.required_friction_angle_deg || !report.friction_angle_deg)
+    return "";
+  const double margin = *report.friction_angle_deg - *report.required_friction_angle_deg;
   if (!Passed(plan) && margin >= 0) return "";
   return FormatDegrees(std::abs(margin)) + (margin < 0 ? " missing in " : " margin in ") +
          report::StepName(plan::EntryIndex(*report.weakest_step));
@@ -81,7 +82,7 @@ Element Facts(const PlanOutcome& plan) {
   };
   add("Object", report.object);
   add("Size", report.size);
-  add("Friction", report.half_angle_deg ? FormatDegrees(*report.half_angle_deg) : "");
+  add("Friction", report.friction_angle_deg ? FormatDegrees(*report.friction_angle_deg) : "");
   add("Weakest", MarginText(plan));
   add("Sequence", StepCount(report));
   add("Planner", report.planner);

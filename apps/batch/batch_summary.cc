@@ -52,7 +52,7 @@ Json PlanJson(const PlanOutcome& plan) {
   if (!plan.report) return json;
   json["steps"] = plan.report->entries.size() - 1;
   json["weakest_step"] = report::OrNull(plan.report->weakest_step);
-  json["required_half_angle_deg"] = report::OrNull(plan.report->required_half_angle_deg);
+  json["required_half_angle_deg"] = report::OrNull(plan.report->required_friction_angle_deg);
   json["failed_step"] = report::OrNull(plan.report->failed_step());
   json["report"] = plan.name + "/report.json";
   if (plan.report->trials) json["trials"] = TrialsJson(*plan.report->trials);
@@ -68,8 +68,8 @@ TextRow MakeRow(const PlanOutcome& plan) {
     const ReportSummary& report = *plan.report;
     row[2] = std::to_string(report.entries.size() - 1);
     if (report.weakest_step) row[3] = std::to_string(*report.weakest_step);
-    if (report.required_half_angle_deg) {
-      row[4] = FormatRequiredDegrees(*report.required_half_angle_deg);
+    if (report.required_friction_angle_deg) {
+      row[4] = FormatRequiredDegrees(*report.required_friction_angle_deg);
     }
     row[5] = ReasonCell(report);
   }
@@ -104,7 +104,7 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::pat
         {.name = "step " + std::to_string(i) + " " + entry.kind,
          .outcome = report::OutcomeOf(entry.verdict),
          .message = entry.reason,
-         .text = report::JunitText(entry.detail, entry.why, entry.mend),
+         .text = report::JunitText(entry.detail, entry.why, entry.suggested_fix),
          .picture = entry.frame.empty() ? "" : (folder / plan.name / entry.frame).string()});
   }
   if (plan.report->trials) {
@@ -114,7 +114,8 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::pat
         {.name = "trials",
          .outcome = enough ? report::JunitOutcome::kPassed : report::JunitOutcome::kFailed,
          .message = enough ? "" : failure->reason,
-         .text = enough ? "" : report::JunitText(failure->what, failure->why, failure->mend)});
+         .text =
+             enough ? "" : report::JunitText(failure->what, failure->why, failure->suggested_fix)});
   }
   if (plan.report->conditions) {
     const ReportSummary::Trials& conditions = *plan.report->conditions;
@@ -123,7 +124,7 @@ report::JunitSuite MakeSuite(const PlanOutcome& plan, const std::filesystem::pat
          .outcome =
              conditions.enough ? report::JunitOutcome::kPassed : report::JunitOutcome::kFailed,
          .message = conditions.enough ? "" : report::kConditionsFailed,
-         .text = report::JunitText(conditions.detail, conditions.why, conditions.mend)});
+         .text = report::JunitText(conditions.detail, conditions.why, conditions.suggested_fix)});
   }
   report::SetCaseTimes(plan.entry_seconds, suite);
   return suite;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/batch/line_input.h"
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 #include "planner/base/file.h"
 
 namespace regrasp::apps {

@@ -225,7 +225,7 @@ std::optional<std::string> LinesOutput::FindEarlier(std::int64_t entry, const Ac
 void LinesOutput::Count(std::string_view line) {
   const std::optional<Outcome> outcome = OutcomeOf(line, next_);
   if (!outcome) throw std::logic_error("a line is not that of entry " + std::to_string(next_));
-  ++tally_[*outcome];
+  ++counts_[*outcome];
   ++next_;
 }
 

@@ -46,7 +46,7 @@ class LinesOutput {
   /// written.
   [[nodiscard]] std::int64_t next() const { return next_; }
   /// Return the outcome counts of the entries written so far.
-  [[nodiscard]] const Tally& tally() const { return tally_; }
+  [[nodiscard]] const OutcomeCounts& counts() const { return counts_; }
   /// Return the number of these entries that were reused from an earlier run.
   [[nodiscard]] std::int64_t kept() const { return kept_; }
 
@@ -90,7 +90,7 @@ class LinesOutput {
   std::filesystem::path path_, part_, rest_;
   LinesHeader header_;
   Descriptor file_;  ///< descriptor of the part
-  Tally tally_;
+  OutcomeCounts counts_;
   std::int64_t next_;
   std::int64_t kept_ = 0;
   Kept kept_in_ = Kept::kNowhere;

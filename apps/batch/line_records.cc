@@ -175,10 +175,10 @@ std::optional<std::string_view> SealedInputs(std::string_view line) {
   return inputs;
 }
 
-std::string TallyText(const Tally& tally) {
+std::string OutcomeCountsText(const OutcomeCounts& outcomes) {
   std::int64_t all = 0;
   std::string counts;
-  for (const auto& [outcome, count] : tally) {
+  for (const auto& [outcome, count] : outcomes) {
     all += count;
     counts += (counts.empty() ? ": " : ", ") + std::to_string(count) + " " +
               std::string(OutcomeName(outcome));

@@ -105,9 +105,9 @@ enum class Outcome {
 [[nodiscard]] std::optional<std::string_view> SealedInputs(std::string_view line);
 
 /// Number of entries per outcome.
-using Tally = std::map<Outcome, std::int64_t>;
+using OutcomeCounts = std::map<Outcome, std::int64_t>;
 
 /// Return the counts as text: "1000 entries: 990 pass, 8 fail, 2 no-plan".
-[[nodiscard]] std::string TallyText(const Tally& tally);
+[[nodiscard]] std::string OutcomeCountsText(const OutcomeCounts& counts);
 
 }  // namespace regrasp::apps

@@ -156,7 +156,7 @@ std::vector<ShardFile> FindShards(const std::vector<fs::path>& files) {
   return shards;
 }
 
-Tally MergeLines(const std::vector<ShardFile>& shards, const fs::path& output, bool fresh) {
+OutcomeCounts MergeLines(const std::vector<ShardFile>& shards, const fs::path& output, bool fresh) {
   LinesHeader whole = shards.front().header;
   whole.shard = {};
   LinesOutput merged(output, whole, fresh);
@@ -168,7 +168,7 @@ Tally MergeLines(const std::vector<ShardFile>& shards, const fs::path& output, b
     throw;
   }
   merged.Finish();
-  return merged.tally();
+  return merged.counts();
 }
 
 }  // namespace regrasp::apps

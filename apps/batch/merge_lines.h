@@ -29,7 +29,7 @@ struct ShardFile {
 /// @throws InputError        if a shard does not contain exactly its entries, one per line. The
 ///     message names the file and the line.
 /// @throws EnvironmentError  if the output cannot be written.
-Tally MergeLines(const std::vector<ShardFile>& shards, const std::filesystem::path& output,
-                 bool fresh);
+OutcomeCounts MergeLines(const std::vector<ShardFile>& shards, const std::filesystem::path& output,
+                         bool fresh);
 
 }  // namespace regrasp::apps

@@ -25,7 +25,7 @@ std::string WhyNoPlan(const fs::path& path) {
   if (!fs::exists(path, error)) return "";
   // A pipe or a device may have no end.
   if (!fs::is_regular_file(path, error)) return "is not a regular file";
-  if (fs::file_size(path, error) > kMostLookedAtBytes) return "";
+  if (fs::file_size(path, error) > kMaxPlanFileBytes) return "";
   try {
     const Json json = ParseJson(ReadFile(path), path.string());
     const auto format = json.find("format");
@@ -45,7 +45,7 @@ constexpr int kMostBelow = 1000;
 bool IsPlan(const fs::path& path) {
   std::error_code error;
   if (path.extension() != kSuffix || !fs::is_regular_file(path, error)) return false;
-  if (fs::file_size(path, error) > kMostLookedAtBytes) return true;
+  if (fs::file_size(path, error) > kMaxPlanFileBytes) return true;
   try {
     const Json json = ParseJson(ReadFile(path), path.string());
     return json.is_object() && json.value("format", Json()) == kPlanFormat;

@@ -35,6 +35,6 @@ struct PlanLibrary {
 
 /// Maximum size of a file whose format is checked here, bytes. A larger file is included as a plan;
 /// its own validation may then reject it.
-inline constexpr std::size_t kMostLookedAtBytes = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxPlanFileBytes = std::size_t{1} << 24;
 
 }  // namespace regrasp::apps

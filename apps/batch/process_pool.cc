@@ -120,7 +120,7 @@ class Pool {
  public:
   Pool(const PoolOptions& options, const std::function<int(int)>& work,
        const std::function<void(int, ChildExit)>& on_exit)
-      : options_(options), work_(work), on_exit_(on_exit), last_look_(options.now()) {}
+      : options_(options), work_(work), on_exit_(on_exit), last_check_(options.now()) {}
   ~Pool() { KillAll(); }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -156,7 +156,7 @@ class Pool {
   const std::function<int(int)>& work_;
   const std::function<void(int, ChildExit)>& on_exit_;
   SignalEvents signals_;
-  Clock::time_point last_look_;
+  Clock::time_point last_check_;
   std::vector<Child> children_;
 };
 
@@ -201,7 +201,7 @@ void Pool::Start(int index) {
   errors.CloseOut();
   CountTime();  // earlier time does not count for this child
   const auto limit = options_.time_limit.value_or(std::chrono::duration<double>::zero());
-  children_.push_back({index, process, std::move(output), std::move(errors), last_look_,
+  children_.push_back({index, process, std::move(output), std::move(errors), last_check_,
                        std::chrono::duration_cast<Clock::duration>(limit)});
 }
 
@@ -246,8 +246,8 @@ void Pool::Wait() {
 
 void Pool::CountTime() {
   const Clock::time_point now = options_.now();
-  const auto passed = std::min<Clock::duration>(now - last_look_, kMostCounted);
-  last_look_ = now;
+  const auto passed = std::min<Clock::duration>(now - last_check_, kMostCounted);
+  last_check_ = now;
   for (Child& child : children_) child.left -= passed;
 }
 
@@ -279,7 +279,7 @@ void Pool::Reap() {
     }
     exit.output = child.output.text();
     exit.errors = child.errors.text();
-    exit.seconds = std::chrono::duration<double>(last_look_ - child.begin).count();
+    exit.seconds = std::chrono::duration<double>(last_check_ - child.begin).count();
     on_exit_(child.index, std::move(exit));
   }
 }

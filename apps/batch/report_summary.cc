@@ -34,7 +34,7 @@ void ReadSubject(const plan::JsonReader& root, ReportSummary& summary) {
     summary.planner = TextOrNothing(root.Member("plan"), "planner");
   }
   if (root.Has("settings")) {
-    summary.half_angle_deg = root.Member("settings").Member("friction_half_angle_deg").Number();
+    summary.friction_angle_deg = root.Member("settings").Member("friction_half_angle_deg").Number();
   }
 }
 
@@ -45,7 +45,7 @@ ReportSummary::Trials ReadTrials(const plan::JsonReader& trials) {
   read.passed = trials.Member("passed").Integer(0, read.count);
   read.detail = TextOrNothing(trials, "detail");
   read.why = TextOrNothing(trials, "why");
-  read.mend = TextOrNothing(trials, "mend");
+  read.suggested_fix = TextOrNothing(trials, "mend");
   read.enough = trials.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   return read;
 }
@@ -57,7 +57,7 @@ ReportSummary::Trials ReadConditionCounts(const plan::JsonReader& conditions) {
   read.passed = conditions.Member("passed").Integer(0, read.count);
   read.detail = TextOrNothing(conditions, "detail");
   read.why = TextOrNothing(conditions, "why");
-  read.mend = TextOrNothing(conditions, "mend");
+  read.suggested_fix = TextOrNothing(conditions, "mend");
   read.enough = conditions.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   return read;
 }
@@ -82,15 +82,16 @@ std::optional<report::Failure> ReportSummary::failure() const {
   if (const std::optional<int> step = failed_step()) {
     const Entry& entry = entries[*step];
     return report::Failure{
-        plan::EntryIndex(*step), entry.kind, entry.reason, entry.detail, entry.why, entry.mend};
+        plan::EntryIndex(*step), entry.kind, entry.reason, entry.detail, entry.why,
+        entry.suggested_fix};
   }
   if (!passed && conditions && !conditions->enough && (!trials || trials->enough)) {
     return report::Failure{plan::EntryIndex(), "conditions",    report::kConditionsFailed,
-                           conditions->detail, conditions->why, conditions->mend};
+                           conditions->detail, conditions->why, conditions->suggested_fix};
   }
   if (passed || !trials) return std::nullopt;
   return report::Failure{plan::EntryIndex(), "trials",    report::kTrialsFailed,
-                         trials->detail,     trials->why, trials->mend};
+                         trials->detail,     trials->why, trials->suggested_fix};
 }
 
 std::string ReportSummary::extent() const {
@@ -133,7 +134,7 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   const plan::JsonReader closure = steps[*summary.weakest_step].Member("force_closure");
   if (closure.IsNull()) return summary;
   const plan::JsonReader required = closure.Member("required_half_angle_deg");
-  if (!required.IsNull()) summary.required_half_angle_deg = required.Number();
+  if (!required.IsNull()) summary.required_friction_angle_deg = required.Number();
   return summary;
 }
 

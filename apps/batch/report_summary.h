@@ -16,28 +16,28 @@ namespace regrasp::apps {
 struct ReportSummary {
   struct Entry {
     std::string kind, verdict;
-    std::string reason, detail;       ///< empty if there is none
-    std::string frame;                ///< name of the image file; empty if there is none
-    std::string why = {}, mend = {};  ///< cause and suggested fix of a failed step
+    std::string reason, detail;                ///< empty if there is none
+    std::string frame;                         ///< name of the image file; empty if there is none
+    std::string why = {}, suggested_fix = {};  ///< cause and suggested fix of a failed step
   };
   /// Repeats of the replay with noise, or replays under conditions.
   struct Trials {
     int count = 0;
     int passed = 0;
-    std::string detail = {}, why = {}, mend = {};  ///< if too few pass
+    std::string detail = {}, why = {}, suggested_fix = {};  ///< if too few pass
     bool enough = true;
   };
   bool passed = false;
-  std::string object;                    ///< name of the object file
-  std::string size;                      ///< size as text: "10.4 cm across, 216 g"
-  std::string planner;                   ///< name of the planner; empty if not reported
-  std::optional<double> half_angle_deg;  ///< friction angle, degrees
+  std::string object;                        ///< name of the object file
+  std::string size;                          ///< size as text: "10.4 cm across, 216 g"
+  std::string planner;                       ///< name of the planner; empty if not reported
+  std::optional<double> friction_angle_deg;  ///< friction angle, degrees
   std::string run;  ///< digest of the inputs of the report; empty if not reported
   std::vector<report::FileDigest> files;  ///< other result files of the run
   std::vector<Entry> entries;
   std::optional<int> weakest_step;
   /// required friction angle of the weakest step, degrees
-  std::optional<double> required_half_angle_deg;
+  std::optional<double> required_friction_angle_deg;
   std::optional<Trials> trials = std::nullopt;
   std::optional<Trials> conditions = std::nullopt;
 

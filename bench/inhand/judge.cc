@@ -78,9 +78,10 @@ void CheckIsFor(const Task& task, const HandBody& body, const kinematics::HandFi
     throw InputError(name + ": /object/scale: " + FormatDouble(plan.scale) + ", but the body " +
                      body.name + " has " + FormatDouble(body.scale));
   }
-  if (plan.half_angle > std::atan(kFriction) + kRounding) {
-    throw InputError(name + ": the plan's friction is " + FormatShort(std::tan(plan.half_angle)) +
-                     ", more than " + FormatShort(kFriction));
+  if (plan.friction_angle > std::atan(kFriction) + kRounding) {
+    throw InputError(name + ": the plan's friction is " +
+                     FormatShort(std::tan(plan.friction_angle)) + ", more than " +
+                     FormatShort(kFriction));
   }
   CheckGoal(task, body, plan, name);
 }

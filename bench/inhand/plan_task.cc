@@ -83,7 +83,7 @@ planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& bod
   planning::PlanRequest request;
   request.object = &body.solid();
   request.object_name = body.file.file;
-  request.criteria.half_angle = std::atan(kFriction);
+  request.criteria.friction_angle = std::atan(kFriction);
   const auto ways = InHandTasksOf(hand, body, task, start, request.criteria);
   planning::PlanResult found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -132,7 +132,7 @@ PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, con
   if (planned.plan) {
     // The evaluation reports the result of the checker.
     (void)certificate::FinishPlan(
-        body.file, {.half_angle = std::atan(kFriction), .scale = body.scale}, *planned.plan);
+        body.file, {.friction_angle = std::atan(kFriction), .scale = body.scale}, *planned.plan);
   }
   return planned;
 }

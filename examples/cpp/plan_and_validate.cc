@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     planning::PlanRequest request;
     request.object = file.object.get();
     request.object_name = file.file;
-    request.criteria.half_angle = Radians(20);  // friction angle
+    request.criteria.friction_angle = Radians(20);  // friction angle
     request.start.kind = planning::GraspChoice::Kind::kRandom;
     request.goal.kind = planning::GraspChoice::Kind::kRandom;
     request.seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     planning::PlanRequest request;
     request.object = solid;
     request.object_name = file.file;
-    request.criteria.half_angle = std::atan(0.8);
+    request.criteria.friction_angle = std::atan(0.8);
     request.seed = 1;
     gait::AskInHand(task, request);
 

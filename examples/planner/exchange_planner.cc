@@ -57,7 +57,7 @@ class ExchangePlanner final : public planning::Planner {
   static std::optional<plan::Plan> Exchange(const planning::PlanRequest& request,
                                             const std::vector<int>& order) {
     plan::Plan plan;
-    plan.half_angle = request.criteria.half_angle;
+    plan.friction_angle = request.criteria.friction_angle;
     plan.fingers = static_cast<int>(order.size()) + 1;
     plan.planner = "exchange";
     plan.initial = plan::FingersInOrder(request.start.grasp);
@@ -68,7 +68,7 @@ class ExchangePlanner final : public planning::Planner {
       const plan::Switch exchange{{{free, request.goal.grasp[k]}}, {plan.initial[k].finger}};
       held = plan::GraspAfter(held, exchange);
       if (!grasp::IsForceClosure(plan::ContactsOf(held), request.object->wrench_frame(),
-                                 plan.half_angle)) {
+                                 plan.friction_angle)) {
         return std::nullopt;
       }
       free = plan.initial[k].finger;
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     planning::PlanRequest request;
     request.object = file.object.get();
     request.object_name = file.file;
-    request.criteria.half_angle = Radians(25);
+    request.criteria.friction_angle = Radians(25);
     request.start.kind = request.goal.kind = planning::GraspChoice::Kind::kRandomAny;
     request.seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
     request.parameters = ExchangeParameters{.most_orders = 24};

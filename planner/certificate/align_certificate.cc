@@ -2,7 +2,7 @@
 
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/path_force_closure.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::certificate {
 
@@ -17,39 +17,39 @@ grasp::Grasp ContactsInOrder(const plan::FingerGrasp& grasp, const plan::FingerG
 
 std::optional<motion::MotionSegments> FindPathProof(const grasp::Grasp& from,
                                                     const grasp::Grasp& to, int dimension,
-                                                    double half_angle) {
+                                                    double friction_angle) {
   if (from.empty() || from.size() != to.size()) return std::nullopt;
   motion::GraspMotion motion;
   for (std::size_t i = 0; i < from.size(); ++i) motion.emplace_back(from[i], to[i]);
   // Force closure does not depend on the frame.
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 1, dimension};
-  motion::PathForceClosure path = motion::DecidePathForceClosure(motion, frame, half_angle);
+  motion::PathForceClosure path = motion::DecidePathForceClosure(motion, frame, friction_angle);
   if (!path.holds()) return std::nullopt;
   return std::move(path.pieces);
 }
 
-std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& located,
-                                                           int dimension, double half_angle) {
+std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& projected,
+                                                           int dimension, double friction_angle) {
   plan::AlignCertificate certificate;
-  for (std::size_t w = 0; w + 1 < located.waypoints.size(); ++w) {
-    auto pieces = FindPathProof(plan::ContactsOf(located.waypoints[w]),
-                                ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]),
-                                dimension, half_angle);
+  for (std::size_t w = 0; w + 1 < projected.waypoints.size(); ++w) {
+    auto pieces = FindPathProof(plan::ContactsOf(projected.waypoints[w]),
+                                ContactsInOrder(projected.waypoints[w + 1], projected.waypoints[w]),
+                                dimension, friction_angle);
     if (!pieces) return std::nullopt;
     certificate.push_back(std::move(*pieces));
   }
   return certificate;
 }
 
-motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimension, double mu,
+motion::ProofVerdict CheckAlignCertificate(const plan::Align& projected, int dimension, double mu,
                                            const plan::AlignCertificate& certificate) {
-  if (certificate.size() + 1 != located.waypoints.size()) {
+  if (certificate.size() + 1 != projected.waypoints.size()) {
     return {motion::ProofVerdict::Kind::kNothing, "not one proof for each pair of waypoints"};
   }
   for (std::size_t w = 0; w < certificate.size(); ++w) {
-    const grasp::Grasp to = ContactsInOrder(located.waypoints[w + 1], located.waypoints[w]);
+    const grasp::Grasp to = ContactsInOrder(projected.waypoints[w + 1], projected.waypoints[w]);
     const motion::ProofVerdict verdict = motion::CheckMotionProof(
-        plan::ContactsOf(located.waypoints[w]), to, dimension, mu, certificate[w]);
+        plan::ContactsOf(projected.waypoints[w]), to, dimension, mu, certificate[w]);
     if (!verdict.proves()) {
       return {verdict.kind, "from waypoint " + std::to_string(w) + " on, " + verdict.why};
     }
@@ -58,12 +58,12 @@ motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimen
 }
 
 void AddCertificates(const object::Object& object, plan::Plan& plan) {
-  const plan::Plan located = plan::LocatePlan(object, plan);
+  const plan::Plan projected = plan::ProjectPlan(object, plan);
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     auto* align = std::get_if<plan::Align>(&plan.steps[s]);
     if (align == nullptr || align->certificate) continue;
-    align->certificate = FindAlignCertificate(std::get<plan::Align>(located.steps[s]),
-                                              plan.dimension, plan.half_angle);
+    align->certificate = FindAlignCertificate(std::get<plan::Align>(projected.steps[s]),
+                                              plan.dimension, plan.friction_angle);
   }
 }
 
@@ -75,7 +75,7 @@ plan::PlanCheck FinishPlan(const object::ObjectFile& object, const PlanOrigin& o
   plan.shells = origin.shells;
   plan.patch_radius = origin.patch_radius;
   plan.at_given_points = origin.given_points != nullptr;
-  plan.half_angle = origin.half_angle;
+  plan.friction_angle = origin.friction_angle;
   plan.scale = origin.scale;
   AddCertificates(*object.object, plan);
   plan::CheckOptions options;

@@ -18,25 +18,25 @@ namespace regrasp::certificate {
 /// Find a proof of force closure during the motion between two waypoints.
 /// It is the certificate of the analytic check (DecidePathForceClosure).
 /// @param from, to    contacts at both waypoints, with the same finger at each index.
-/// @param half_angle  friction angle, radians.
+/// @param friction_angle  friction angle, radians.
 /// @returns nullopt if the analytic check does not accept the motion.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::optional<motion::MotionSegments> FindPathProof(const grasp::Grasp& from,
                                                                   const grasp::Grasp& to,
-                                                                  int dimension, double half_angle);
+                                                                  int dimension,
+                                                                  double friction_angle);
 
 /// Find proofs of force closure during a sliding step, one per pair of consecutive waypoints.
 /// @param located  sliding step with contacts placed on the object.
-/// @param half_angle  friction angle, radians.
+/// @param friction_angle  friction angle, radians.
 /// @returns nullopt if FindPathProof finds none for a pair.
-[[nodiscard]] std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& located,
-                                                                         int dimension,
-                                                                         double half_angle);
+[[nodiscard]] std::optional<plan::AlignCertificate> FindAlignCertificate(
+    const plan::Align& projected, int dimension, double friction_angle);
 
 /// Check the proofs of a sliding step in exact arithmetic (CheckMotionProof).
 /// @returns kForceClosure, or kNothing with the first unproved motion.
-[[nodiscard]] motion::ProofVerdict CheckAlignCertificate(const plan::Align& located, int dimension,
-                                                         double mu,
+[[nodiscard]] motion::ProofVerdict CheckAlignCertificate(const plan::Align& projected,
+                                                         int dimension, double mu,
                                                          const plan::AlignCertificate& certificate);
 
 /// Add a certificate to every sliding step of a plan that has none, if one is found.
@@ -44,7 +44,7 @@ void AddCertificates(const object::Object& object, plan::Plan& plan);
 
 /// Origin of a plan, in addition to the planner's own data.
 struct PlanOrigin {
-  double half_angle = 0;                                ///< friction angle, radians
+  double friction_angle = 0;                            ///< friction angle, radians
   double scale = 1;                                     ///< metres per object unit
   std::optional<object::Shells> shells = std::nullopt;  ///< how the object was read
   std::optional<double> patch_radius = std::nullopt;  ///< radius of the contact patch, object units

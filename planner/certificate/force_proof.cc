@@ -20,11 +20,11 @@ using Eigen::Vector3d;
 constexpr double kSlack = 1e-9;
 
 bool IsInside(const Vector3d& force, double torque, const grasp::Contact& contact,
-              double half_angle) {
+              double friction_angle) {
   const double normal = force.dot(contact.n);
   double tangential = (force - normal * contact.n).norm();
   if (torque != 0) tangential = std::hypot(tangential, torque / contact.torsion);
-  const double inside = normal * std::sin(half_angle) - tangential * std::cos(half_angle);
+  const double inside = normal * std::sin(friction_angle) - tangential * std::cos(friction_angle);
   return inside > kSlack * (1 + force.norm());
 }
 
@@ -75,9 +75,9 @@ GraspProof TwistProof(const typename grasp::WrenchSimplex<kDim>::Vector& twist,
 
 template <int kDim>
 GraspProof FindRefutation(std::span<const grasp::Contact> contacts,
-                          const object::WrenchFrame& frame, double half_angle) {
+                          const object::WrenchFrame& frame, double friction_angle) {
   grasp::UnitContacts units = grasp::MakeUnitContacts(contacts, frame);
-  grasp::SetUnitForces(units, half_angle);
+  grasp::SetUnitForces(units, friction_angle);
   if constexpr (kDim == 6) {
     // Soft-finger contacts on the line can resist a rotation about it.
     const GraspProof line = grasp::HasTorsion(units) ? GraspProof() : FindLine(units);
@@ -109,17 +109,17 @@ bool AreOnOneLine(std::span<const grasp::Contact> contacts, const object::Wrench
 }  // namespace
 
 GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimension,
-                          double half_angle) {
+                          double friction_angle) {
   const object::WrenchFrame frame = OwnFrame(contacts, dimension);
-  grasp::CheckHalfAngle(half_angle);
+  grasp::CheckFrictionAngle(friction_angle);
   if (!(frame.radius > 0)) return {};
   const grasp::GraspForces internal =
-      grasp::ComputeGraspForces(contacts, frame, half_angle, grasp::Wrench(), 1);
+      grasp::ComputeGraspForces(contacts, frame, friction_angle, grasp::Wrench(), 1);
   const bool soft = HaveTorsion(contacts);
   bool inside = internal.balanced && internal.margin > 0 &&
                 !(dimension == 3 && !soft && AreOnOneLine(contacts, frame));
   for (std::size_t i = 0; inside && i < contacts.size(); ++i) {
-    inside = IsInside(internal.forces[i], internal.torques[i], contacts[i], half_angle);
+    inside = IsInside(internal.forces[i], internal.torques[i], contacts[i], friction_angle);
   }
   if (inside) {
     GraspProof proof;
@@ -128,8 +128,8 @@ GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimensio
     if (soft) proof.torques = internal.torques;
     return proof;
   }
-  return dimension == 3 ? FindRefutation<6>(contacts, frame, half_angle)
-                        : FindRefutation<3>(contacts, frame, half_angle);
+  return dimension == 3 ? FindRefutation<6>(contacts, frame, friction_angle)
+                        : FindRefutation<3>(contacts, frame, friction_angle);
 }
 
 }  // namespace regrasp::certificate

@@ -41,11 +41,11 @@ struct EntryProof {
 
 /// Find a proof of force closure or of its opposite.
 /// @param dimension   3, or 2 for planar contacts.
-/// @param half_angle  friction angle, radians.
+/// @param friction_angle  friction angle, radians.
 /// @returns kForces if there are forces with slack, otherwise a refutation; kNone for grasps too
 ///     close to the limit.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] GraspProof FindGraspProof(std::span<const grasp::Contact> contacts, int dimension,
-                                        double half_angle);
+                                        double friction_angle);
 
 }  // namespace regrasp::certificate

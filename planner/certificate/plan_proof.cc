@@ -52,14 +52,14 @@ std::vector<Entry> EntriesOf(const plan::Plan& plan) {
 /// Return the plan's own proof of a motion if it is valid, otherwise a new one; empty if none is
 /// found.
 motion::MotionSegments ProvePath(const Entry& entry, std::size_t index, int dimension,
-                                 double half_angle) {
+                                 double friction_angle) {
   const auto& [from, to] = entry.motions[index];
   if (entry.certificate != nullptr && index < entry.certificate->size()) {
     const motion::MotionSegments& given = (*entry.certificate)[index];
-    if (motion::CheckMotionProof(from, to, dimension, std::tan(half_angle), given).proves())
+    if (motion::CheckMotionProof(from, to, dimension, std::tan(friction_angle), given).proves())
       return given;
   }
-  return FindPathProof(from, to, dimension, half_angle).value_or(motion::MotionSegments());
+  return FindPathProof(from, to, dimension, friction_angle).value_or(motion::MotionSegments());
 }
 
 Json GraspProofJson(const GraspProof& proof, int dimension) {
@@ -108,23 +108,24 @@ bool EntryVerdict::proved() const {
   return rest.proves() && std::ranges::all_of(motions, &motion::ProofVerdict::proves);
 }
 
-std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle, int entries) {
+std::vector<EntryProof> FindPlanProofs(const plan::Plan& projected, double friction_angle,
+                                       int entries) {
   std::vector<EntryProof> proofs;
-  for (const Entry& entry : EntriesOf(located)) {
+  for (const Entry& entry : EntriesOf(projected)) {
     if (static_cast<int>(proofs.size()) >= entries) break;
     EntryProof proof;
-    proof.rest = FindGraspProof(entry.rest, located.dimension, half_angle);
+    proof.rest = FindGraspProof(entry.rest, projected.dimension, friction_angle);
     for (std::size_t index = 0; index < entry.motions.size(); ++index) {
-      proof.motions.push_back(ProvePath(entry, index, located.dimension, half_angle));
+      proof.motions.push_back(ProvePath(entry, index, projected.dimension, friction_angle));
     }
     proofs.push_back(std::move(proof));
   }
   return proofs;
 }
 
-std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
+std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& projected, double mu,
                                           std::span<const EntryProof> proofs) {
-  const std::vector<Entry> entries = EntriesOf(located);
+  const std::vector<Entry> entries = EntriesOf(projected);
   if (proofs.size() > entries.size()) {
     throw std::invalid_argument("more proofs than the plan has entries");
   }
@@ -132,11 +133,11 @@ std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     const Entry& entry = entries[i];
     EntryVerdict verdict{plan::EntryIndex(static_cast<int>(i)), entry.kind, {}, {}};
-    verdict.rest = CheckGraspProof(entry.rest, located.dimension, mu, proofs[i].rest);
+    verdict.rest = CheckGraspProof(entry.rest, projected.dimension, mu, proofs[i].rest);
     for (std::size_t index = 0; index < entry.motions.size(); ++index) {
       const bool has = index < proofs[i].motions.size();
       verdict.motions.push_back(motion::CheckMotionProof(
-          entry.motions[index].from, entry.motions[index].to, located.dimension, mu,
+          entry.motions[index].from, entry.motions[index].to, projected.dimension, mu,
           has ? proofs[i].motions[index] : motion::MotionSegments()));
     }
     verdicts.push_back(std::move(verdict));

@@ -14,10 +14,10 @@ namespace regrasp::certificate {
 /// Find proofs of the first `entries` entries of a plan.
 /// The first entry is the hold of the initial grasp.
 /// Valid certificates of the plan are reused.
-/// @param located  plan with contacts placed on the object (LocatePlan).
-/// @param half_angle  friction angle, radians.
-[[nodiscard]] std::vector<EntryProof> FindPlanProofs(const plan::Plan& located, double half_angle,
-                                                     int entries);
+/// @param located  plan with contacts placed on the object (ProjectPlan).
+/// @param friction_angle  friction angle, radians.
+[[nodiscard]] std::vector<EntryProof> FindPlanProofs(const plan::Plan& projected,
+                                                     double friction_angle, int entries);
 
 /// Result of the exact check of one entry's proofs.
 struct EntryVerdict {
@@ -32,7 +32,7 @@ struct EntryVerdict {
 
 /// Check proofs against a plan, in order from the initial hold.
 /// @throws std::invalid_argument  if there are more proofs than entries.
-[[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& located, double mu,
+[[nodiscard]] std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& projected, double mu,
                                                         std::span<const EntryProof> proofs);
 
 [[nodiscard]] Json EntryProofJson(const EntryProof& proof, int dimension);

@@ -36,12 +36,12 @@ struct Criterion {
 bool HasQuality(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria,
                 grasp::QualityFilter* filter) {
   if (filter != nullptr) return filter->IsClearlyAtLeast(grasp, criteria.min_quality);
-  return grasp::QualityAtLeast(grasp, frame, criteria.half_angle, criteria.min_quality);
+  return grasp::QualityAtLeast(grasp, frame, criteria.friction_angle, criteria.min_quality);
 }
 
 double QualityOf(Contacts grasp, const object::WrenchFrame& frame, const GraspCriteria& criteria,
                  double gap) {
-  return grasp::ComputeQuality(grasp, frame, criteria.half_angle, gap).lower;
+  return grasp::ComputeQuality(grasp, frame, criteria.friction_angle, gap).lower;
 }
 
 constexpr std::array kCriteria = {

@@ -21,7 +21,7 @@ namespace regrasp::criteria {
 /// table in grasp_criteria.cc. All planners then apply it, relax it if they find no sequence, and
 /// warn of grasps that do not meet it.
 struct GraspCriteria {
-  double half_angle = 0;  ///< friction angle, radians in (0, π/2)
+  double friction_angle = 0;  ///< friction angle, radians in (0, π/2)
   /// Smallest grasp quality (grasp/quality.h) of random grasps. Sequences use such grasps if
   /// possible.
   double min_quality = 0.01;

@@ -6,7 +6,7 @@
 
 #include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure_core.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::criteria {
@@ -43,12 +43,12 @@ GraspEvaluator::GraspEvaluator(const object::Object& object, const GraspCriteria
       hand_(hand),
       quality_(quality),
       same_point_(kSamePoint * object.diameter()),
-      half_angle_(criteria.half_angle),
-      filter_(frame_, criteria.half_angle) {}
+      friction_angle_(criteria.friction_angle),
+      filter_(frame_, criteria.friction_angle) {}
 
-void GraspEvaluator::SetHalfAngle(double half_angle) {
-  grasp::CheckHalfAngle(half_angle);
-  half_angle_ = half_angle;
+void GraspEvaluator::SetFrictionAngle(double friction_angle) {
+  grasp::CheckFrictionAngle(friction_angle);
+  friction_angle_ = friction_angle;
 }
 
 void GraspEvaluator::SetShare(double share) {
@@ -71,11 +71,11 @@ bool GraspEvaluator::IsReachable(const grasp::Grasp& grasp) const {
   return CanAllMeet(grasp) && AreReachable(grasp);
 }
 
-bool GraspEvaluator::HoldsAt(Contacts grasp, double half_angle) const {
+bool GraspEvaluator::HoldsAt(Contacts grasp, double friction_angle) const {
   ++counts_.force_closure;
   const grasp::SoftContacts felt(grasp, torsion());
   grasp::UnitContacts contacts = grasp::MakeUnitContacts(felt.view(), frame_);
-  grasp::SetUnitForces(contacts, half_angle);
+  grasp::SetUnitForces(contacts, friction_angle);
   grasp::Recentre(contacts);
   const grasp::ForceClosure answer = dimension() == 3 ? grasp::DecideForceClosure<6>(contacts)
                                                       : grasp::DecideForceClosure<3>(contacts);
@@ -92,7 +92,7 @@ bool GraspEvaluator::MeetsCriteria(Contacts grasp) const {
 
 bool GraspEvaluator::IsAdmitted(const grasp::Grasp& grasp) const {
   // The cheapest and most selective tests come first.
-  return CanAllMeet(grasp) && HoldsAt(grasp, half_angle_) && MeetsCriteria(grasp);
+  return CanAllMeet(grasp) && HoldsAt(grasp, friction_angle_) && MeetsCriteria(grasp);
 }
 
 bool GraspEvaluator::IsGood(const grasp::Grasp& grasp) const {
@@ -100,9 +100,9 @@ bool GraspEvaluator::IsGood(const grasp::Grasp& grasp) const {
 }
 
 bool GraspEvaluator::WorkOut(Contacts grasp, KnownGrasp& known) const {
-  if (half_angle_ < known.holds_at) {
-    const bool holds = HoldsAt(grasp, half_angle_) && CanAllMeet(grasp);
-    (holds ? known.holds_at : known.fails_at) = half_angle_;
+  if (friction_angle_ < known.holds_at) {
+    const bool holds = HoldsAt(grasp, friction_angle_) && CanAllMeet(grasp);
+    (holds ? known.holds_at : known.fails_at) = friction_angle_;
     if (!holds) return false;
   }
   if (share_ <= known.good_at || !asks_more_) return true;
@@ -113,7 +113,7 @@ bool GraspEvaluator::WorkOut(Contacts grasp, KnownGrasp& known) const {
 
 double GraspEvaluator::ComputeRequired(Contacts grasp, double accuracy) const {
   const grasp::SoftContacts felt(grasp, torsion());
-  const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), frame_, accuracy);
+  const auto required = grasp::ComputeRequiredFrictionAngle(felt.view(), frame_, accuracy);
   return required ? required->upper : std::numbers::pi / 2;
 }
 
@@ -127,7 +127,7 @@ std::optional<double> GraspEvaluator::Margin(const grasp::Grasp& grasp) const {
   const auto contacts = [&] { return Contacts(grasp); };
   KnownGrasp& known = Know(grasp);
   if (!Admits(known, contacts)) return std::nullopt;
-  return std::max(half_angle_ - RequiredHalfAngle(known, contacts), 0.0);
+  return std::max(friction_angle_ - RequiredFrictionAngle(known, contacts), 0.0);
 }
 
 double GraspEvaluator::Score(const grasp::Grasp& grasp) const {

@@ -41,7 +41,7 @@ struct KnownGrasp {
   /// Return the entry of a grasp that is accepted without a test.
   [[nodiscard]] static KnownGrasp Accepted() { return {0, 0, kInfinity, kInfinity}; }
   /// Return the entry of a grasp that is force closure at a friction angle.
-  [[nodiscard]] static KnownGrasp HeldAt(double half_angle) { return {0, half_angle}; }
+  [[nodiscard]] static KnownGrasp HeldAt(double friction_angle) { return {0, friction_angle}; }
 };
 
 /// Evaluator of grasps: whether they are good enough for a static grasp, and how good they are.
@@ -59,7 +59,7 @@ class GraspEvaluator {
 
   /// Set the friction angle of force closure, radians. The quality keeps the friction of the
   /// criteria.
-  void SetHalfAngle(double half_angle);
+  void SetFrictionAngle(double friction_angle);
   /// Set the share of the criteria (GraspCriteria::Relaxed).
   void SetShare(double share);
 
@@ -70,7 +70,7 @@ class GraspEvaluator {
   [[nodiscard]] const GraspCriteria& criteria() const { return criteria_; }
   [[nodiscard]] double share() const { return share_; }
   /// Return the friction angle of force closure, radians.
-  [[nodiscard]] double half_angle() const { return half_angle_; }
+  [[nodiscard]] double friction_angle() const { return friction_angle_; }
   [[nodiscard]] double finger_radius() const { return hand_.fingertip_radius; }
   /// Return the smallest number of contacts of a force-closure grasp.
   [[nodiscard]] int fewest_contacts() const {
@@ -90,7 +90,7 @@ class GraspEvaluator {
   [[nodiscard]] bool IsReachable(const grasp::Grasp& grasp) const;
   /// Return whether a grasp is force closure at any friction angle, radians. No other criterion is
   /// tested.
-  [[nodiscard]] bool HoldsAt(std::span<const grasp::Contact> grasp, double half_angle) const;
+  [[nodiscard]] bool HoldsAt(std::span<const grasp::Contact> grasp, double friction_angle) const;
 
   [[nodiscard]] bool IsAdmitted(const grasp::Grasp& grasp) const;
   [[nodiscard]] bool IsGood(const grasp::Grasp& grasp) const;
@@ -103,8 +103,8 @@ class GraspEvaluator {
   }
   /// Return the required friction angle to `accuracy`, radians; π/2 if there is none.
   template <typename ContactsOf>
-  [[nodiscard]] double RequiredHalfAngle(KnownGrasp& known, const ContactsOf& contacts_of,
-                                         double accuracy = kAngleAccuracy) const {
+  [[nodiscard]] double RequiredFrictionAngle(KnownGrasp& known, const ContactsOf& contacts_of,
+                                             double accuracy = kAngleAccuracy) const {
     if (known.required == KnownGrasp::kUnknown) {
       known.required = ComputeRequired(contacts_of(), accuracy);
     }
@@ -135,8 +135,8 @@ class GraspEvaluator {
 
   /// Return whether cached results admit a grasp; nullopt if they do not suffice.
   [[nodiscard]] std::optional<bool> Recall(const KnownGrasp& known) const {
-    if (half_angle_ <= known.fails_at || share_ >= known.poor_at) return false;
-    if (half_angle_ < known.holds_at) return std::nullopt;
+    if (friction_angle_ <= known.fails_at || share_ >= known.poor_at) return false;
+    if (friction_angle_ < known.holds_at) return std::nullopt;
     if (share_ <= known.good_at || !asks_more_) return true;
     return std::nullopt;
   }
@@ -156,7 +156,7 @@ class GraspEvaluator {
   hand::Hand hand_;
   QualityTest quality_;
   double same_point_;
-  double half_angle_;
+  double friction_angle_;
   mutable grasp::QualityFilter filter_;
   mutable Counts counts_;
   mutable std::map<std::vector<double>, KnownGrasp> known_;  ///< by the coordinates of a grasp

@@ -109,8 +109,8 @@ class GraspMemory : public GraspEvaluator {
     if (set.size() < fewest_contacts()) return false;
     return GraspEvaluator::Admits(known_[set], [&] { return ContactsOf(set); });
   }
-  [[nodiscard]] double RequiredHalfAngle(const ContactSet& set) {
-    return GraspEvaluator::RequiredHalfAngle(known_[set], [&] { return ContactsOf(set); });
+  [[nodiscard]] double RequiredFrictionAngle(const ContactSet& set) {
+    return GraspEvaluator::RequiredFrictionAngle(known_[set], [&] { return ContactsOf(set); });
   }
   /// Admit a grasp without a test, as for start and goal.
   void Accept(const ContactSet& set) { known_[set] = KnownGrasp::Accepted(); }

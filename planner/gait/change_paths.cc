@@ -133,11 +133,11 @@ class SlideFollower {
       path.push_back(path.back());
       for (std::size_t i = 0; i < fingers_.size(); ++i) {
         const Contact contact = k == pieces ? motion[i].to() : motion[i].At(double(k) / pieces);
-        Posture& posture = path.back().postures[fingers_[i].finger];
+        JointConfiguration& configuration = path.back().configurations[fingers_[i].finger];
         const auto next = setup_.inverse[fingers_[i].finger].SolveFrom(
-            TargetOf(fingers_[i].finger, contact, from.pose), posture);
+            TargetOf(fingers_[i].finger, contact, from.pose), configuration);
         if (!next) return std::nullopt;
-        posture = *next;
+        configuration = *next;
       }
     }
     return path;
@@ -149,17 +149,18 @@ class SlideFollower {
     const std::size_t pieces = path.size() - 1;
     for (std::size_t i = 0; i < fingers_.size(); ++i) {
       const FingerIndex finger = fingers_[i].finger;
-      const Posture bend = *fingers_[i].end - path.back().postures[finger];
+      const JointConfiguration bend = *fingers_[i].end - path.back().configurations[finger];
       if (bend.cwiseAbs().maxCoeff() > kMaxBend) return false;
       for (std::size_t k = 1; k < pieces; ++k) {
         const double fraction = static_cast<double>(k) / static_cast<double>(pieces);
-        Posture& posture = path[k].postures[finger];
-        const auto bent = setup_.inverse[finger].SolveNear(
-            TargetOf(finger, motion[i].At(fraction), path[k].pose), posture + fraction * bend);
+        JointConfiguration& configuration = path[k].configurations[finger];
+        const auto bent =
+            setup_.inverse[finger].SolveNear(TargetOf(finger, motion[i].At(fraction), path[k].pose),
+                                             configuration + fraction * bend);
         if (!bent) return false;
-        posture = *bent;
+        configuration = *bent;
       }
-      path.back().postures[finger] = *fingers_[i].end;
+      path.back().configurations[finger] = *fingers_[i].end;
     }
     return true;
   }
@@ -172,7 +173,8 @@ class SlideFollower {
       for (std::size_t i = 0; i < fingers_.size(); ++i) {
         const FingerIndex finger = fingers_[i].finger;
         const Contact contact = motion[i].At((static_cast<double>(k) + 0.5) / pieces);
-        const auto tip = kinematics::TipAt(setup_.scene.finger(finger), middle.postures[finger]);
+        const auto tip =
+            kinematics::TipAt(setup_.scene.finger(finger), middle.configurations[finger]);
         if ((tip.centre - TargetOf(finger, contact, middle.pose).centre).norm() > kTipOff) {
           return false;
         }
@@ -193,10 +195,10 @@ class SlideFollower {
 };
 
 /// Append a keyframe in which only one finger has moved.
-void Append(const Keyframe& before, FingerIndex finger, const Posture& posture,
+void Append(const Keyframe& before, FingerIndex finger, const JointConfiguration& configuration,
             PlanSegment& segment) {
   segment.path.push_back(before);
-  segment.path.back().postures[finger] = posture;
+  segment.path.back().configurations[finger] = configuration;
 }
 
 }  // namespace
@@ -255,7 +257,8 @@ std::optional<Slide> FindSlide(const HandSetup& setup, const criteria::GraspMemo
       motion.emplace_back(slide.waypoints[i][k], slide.waypoints[i + 1][k]);
     }
     for (const Contact& contact : stationary) motion.emplace_back(contact, contact);
-    if (!motion::FindMotionProof(motion, memory.dimension(), memory.half_angle(), kShortestPiece)) {
+    if (!motion::FindMotionProof(motion, memory.dimension(), memory.friction_angle(),
+                                 kShortestPiece)) {
       return std::nullopt;
     }
   }
@@ -311,16 +314,17 @@ std::optional<std::vector<PlanSegment>> ChangePaths::Find(const Stance& from, St
 
 std::optional<PlanSegment> ChangePaths::Place(FingerIndex finger, int point, int node,
                                               const Keyframe& before, const RolledTips& rolled) {
-  const Posture touching = *checker_.reach().Find(finger, point, node);
+  const JointConfiguration touching = *checker_.reach().Find(finger, point, node);
   Surroundings around = AllExcept(setup_.scene, finger, before);
   AddRolled(setup_.scene, rolled, around);
   const auto path =
-      FindPathToContact(setup_.scene, setup_.inverse[finger], finger, before.postures[finger],
+      FindPathToContact(setup_.scene, setup_.inverse[finger], finger, before.configurations[finger],
                         TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
                         touching, around, random_);
   if (!path) return std::nullopt;
   PlanSegment segment{PlanSegment::Kind::kPlace, finger, point, {}};
-  for (const Posture& posture : *path) Append(before, finger, posture, segment);
+  for (const JointConfiguration& configuration : *path)
+    Append(before, finger, configuration, segment);
   return segment;
 }
 
@@ -332,7 +336,7 @@ std::optional<PlanSegment> ChangePaths::Release(FingerIndex finger, int point, S
   const auto lift_path =
       FindLiftPath(setup_.scene, setup_.inverse[finger], finger,
                    TargetAt(setup_.scene.finger(finger), setup_.points[point], before.pose),
-                   before.postures[finger], around);
+                   before.configurations[finger], around);
   if (!lift_path) return std::nullopt;
   const auto free_path =
       FindFreePath(setup_.scene, finger, lift_path->back(), to.idle[finger], around, random_);
@@ -344,7 +348,8 @@ std::optional<PlanSegment> ChangePaths::Release(FingerIndex finger, int point, S
     if (!checker_.IsPassable(to, node)) return std::nullopt;
   }
   PlanSegment segment{PlanSegment::Kind::kRelease, finger, point, {}};
-  for (const Posture& posture : path) Append(before, finger, posture, segment);
+  for (const JointConfiguration& configuration : path)
+    Append(before, finger, configuration, segment);
   return segment;
 }
 

@@ -36,7 +36,7 @@ class SlideRoutes {
 struct Sliding {
   FingerIndex finger;
   const tree::SurfaceRoute* route = nullptr;
-  const Posture* end = nullptr;
+  const JointConfiguration* end = nullptr;
 };
 
 /// Sliding step: holding fingers slide along the surface simultaneously.

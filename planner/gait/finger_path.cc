@@ -40,7 +40,8 @@ class Midpoint {
         placed_(stationary.size()) {
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
       if (stationary[finger] != nullptr) continue;
-      bounds_[finger] = scene.MotionBound(finger, from.postures[finger], to.postures[finger]);
+      bounds_[finger] =
+          scene.MotionBound(finger, from.configurations[finger], to.configurations[finger]);
     }
   }
 
@@ -79,7 +80,7 @@ class Midpoint {
  private:
   const PlacedFinger& Placed(FingerIndex finger) {
     if (stationary_[finger] != nullptr) return *stationary_[finger];
-    if (!placed_[finger]) placed_[finger] = scene_.Place(finger, frame_.postures[finger]);
+    if (!placed_[finger]) placed_[finger] = scene_.Place(finger, frame_.configurations[finger]);
     return *placed_[finger];
   }
 
@@ -145,23 +146,24 @@ constexpr double kTiltedLift = 0.8;
 constexpr int kTiltedDirections = 6;
 
 /// Return whether a finger may move linearly between two joint configurations.
-bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
-             TipContact tip, const Surroundings& around) {
+bool IsClear(const HandScene& scene, FingerIndex finger, const JointConfiguration& from,
+             const JointConfiguration& to, TipContact tip, const Surroundings& around) {
   return IsClear(scene, finger, from, to, around.pose, tip, around.others) &&
          (around.rolled.empty() ||
           IsClear(scene, finger, from, to, around.pose, tip, around.rolled));
 }
 
 struct Tree {
-  std::vector<Posture> nodes;
+  std::vector<JointConfiguration> nodes;
   std::vector<int> parents;
 
   [[nodiscard]] bool IsRoot() const { return nodes.size() == 1; }
 
-  int Nearest(const Posture& posture) const {
+  int Nearest(const JointConfiguration& configuration) const {
     int best = 0;
     for (int i = 1; i < static_cast<int>(nodes.size()); ++i) {
-      if ((nodes[i] - posture).squaredNorm() < (nodes[best] - posture).squaredNorm()) best = i;
+      if ((nodes[i] - configuration).squaredNorm() < (nodes[best] - configuration).squaredNorm())
+        best = i;
     }
     return best;
   }
@@ -180,15 +182,16 @@ class Connector {
             RandomStream& random)
       : scene_(scene), finger_(finger), around_(around), random_(random) {}
 
-  std::optional<FingerPath> Find(const Posture& from, const Posture& to, int most_extensions) {
+  std::optional<FingerPath> Find(const JointConfiguration& from, const JointConfiguration& to,
+                                 int most_extensions) {
     if (IsFree(from, to)) return FingerPath{from, to};
     std::array<Tree, 2> trees = {Tree{{from}, {-1}}, Tree{{to}, {-1}}};
     for (int i = 0; i < most_extensions; ++i) {
       if (i == kMaxTrapped && std::ranges::any_of(trees, &Tree::IsRoot)) break;
       Tree& growing = trees[i % 2];
       Tree& other = trees[1 - i % 2];
-      if (!Extend(growing, scene_.DrawPosture(finger_, random_))) continue;
-      const Posture reached = growing.nodes.back();
+      if (!Extend(growing, scene_.DrawConfiguration(finger_, random_))) continue;
+      const JointConfiguration reached = growing.nodes.back();
       // Extend until blocked or connected.
       while (Extend(other, reached)) {
         if ((other.nodes.back() - reached).norm() > 0) continue;
@@ -202,11 +205,11 @@ class Connector {
   }
 
  private:
-  [[nodiscard]] bool IsFree(const Posture& from, const Posture& to) const {
+  [[nodiscard]] bool IsFree(const JointConfiguration& from, const JointConfiguration& to) const {
     return IsClear(scene_, finger_, from, to, TipContact::kFree, around_);
   }
-  [[nodiscard]] bool IsFreeAt(const Posture& posture) const {
-    const PlacedFinger placed = scene_.Place(finger_, posture);
+  [[nodiscard]] bool IsFreeAt(const JointConfiguration& configuration) const {
+    const PlacedFinger placed = scene_.Place(finger_, configuration);
     const auto keeps_apart = [&](const PlacedFinger& other) {
       return scene_.KeepApart(placed, other);
     };
@@ -214,13 +217,14 @@ class Connector {
            std::ranges::all_of(around_.others, keeps_apart) && scene_.KeepsOffHand(placed);
   }
   /// Extend the tree by one stride from its nearest node towards a configuration.
-  bool Extend(Tree& tree, const Posture& towards) const {
+  bool Extend(Tree& tree, const JointConfiguration& towards) const {
     const int nearest = tree.Nearest(towards);
-    const Posture step = towards - tree.nodes[nearest];
+    const JointConfiguration step = towards - tree.nodes[nearest];
     const double length = step.norm();
     if (length == 0) return false;
-    const Posture next =
-        length <= kStride ? towards : Posture(tree.nodes[nearest] + (kStride / length) * step);
+    const JointConfiguration next =
+        length <= kStride ? towards
+                          : JointConfiguration(tree.nodes[nearest] + (kStride / length) * step);
     // The end is checked first because most collisions occur there.
     if (!IsFreeAt(next) || !IsFree(tree.nodes[nearest], next)) return false;
     tree.nodes.push_back(next);
@@ -260,25 +264,26 @@ bool IsClear(const HandScene& scene, const Keyframe& from, const Keyframe& to,
              const Touching& touching) {
   std::vector<bool> moves;
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-    moves.push_back(scene.MotionBound(finger, from.postures[finger], to.postures[finger]) > 0);
+    moves.push_back(
+        scene.MotionBound(finger, from.configurations[finger], to.configurations[finger]) > 0);
   }
   const bool object_moves = from.pose.matrix() != to.pose.matrix();
   return CertifyOpen(scene, Stationary(moves.size(), nullptr), touching, from, to,
                      ChecksOf(moves, object_moves));
 }
 
-bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, const Posture& to,
-             const Eigen::Isometry3d& pose, TipContact tip,
+bool IsClear(const HandScene& scene, FingerIndex finger, const JointConfiguration& from,
+             const JointConfiguration& to, const Eigen::Isometry3d& pose, TipContact tip,
              const std::vector<PlacedFinger>& others) {
   const int count = scene.finger_count();
   std::vector<bool> moves(count, false);
   moves[finger] = true;
   Stationary stationary(count, nullptr);
   for (const PlacedFinger& other : others) stationary[other.finger] = &other;
-  Keyframe begin{pose, std::vector<Posture>(count)};
+  Keyframe begin{pose, std::vector<JointConfiguration>(count)};
   Keyframe end = begin;
-  begin.postures[finger] = from;
-  end.postures[finger] = to;
+  begin.configurations[finger] = from;
+  end.configurations[finger] = to;
   Touching touching(count, TipContact::kFree);
   touching[finger] = tip;
   return CertifyOpen(scene, stationary, touching, begin, end, ChecksOf(moves, false));
@@ -287,13 +292,14 @@ bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from, co
 Surroundings AllExcept(const HandScene& scene, FingerIndex moving, const Keyframe& frame) {
   Surroundings around{frame.pose, {}};
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-    if (finger != moving) around.others.push_back(scene.Place(finger, frame.postures[finger]));
+    if (finger != moving)
+      around.others.push_back(scene.Place(finger, frame.configurations[finger]));
   }
   return around;
 }
 
 std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
-                                       const Posture& from, const Posture& to,
+                                       const JointConfiguration& from, const JointConfiguration& to,
                                        const Surroundings& around, RandomStream& random,
                                        int most_extensions) {
   return Connector(scene, finger, around, random).Find(from, to, most_extensions);
@@ -302,14 +308,15 @@ std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finge
 std::optional<FingerPath> FindLiftPath(const HandScene& scene,
                                        const kinematics::InverseKinematics& inverse,
                                        FingerIndex finger, const kinematics::TipTarget& target,
-                                       const Posture& touching, const Surroundings& around) {
+                                       const JointConfiguration& touching,
+                                       const Surroundings& around) {
   for (const Eigen::Vector3d& direction : LiftDirections(-target.towards)) {
     FingerPath path = {touching};
     double height = 0;
     while (height < kMaxLift - kLiftStep / 2) {
       const kinematics::TipTarget above{target.centre + (height + kLiftStep) * direction,
                                         target.towards};
-      const std::optional<Posture> next = inverse.SolveFrom(above, path.back());
+      const std::optional<JointConfiguration> next = inverse.SolveFrom(above, path.back());
       const TipContact tip = height < kTouchingLift ? TipContact::kTouching : TipContact::kFree;
       if (!next || !IsClear(scene, finger, path.back(), *next, tip, around)) break;
       path.push_back(*next);
@@ -322,10 +329,10 @@ std::optional<FingerPath> FindLiftPath(const HandScene& scene,
 
 std::optional<FingerPath> FindPathToContact(const HandScene& scene,
                                             const kinematics::InverseKinematics& inverse,
-                                            FingerIndex finger, const Posture& from,
+                                            FingerIndex finger, const JointConfiguration& from,
                                             const kinematics::TipTarget& target,
-                                            const Posture& touching, const Surroundings& around,
-                                            RandomStream& random) {
+                                            const JointConfiguration& touching,
+                                            const Surroundings& around, RandomStream& random) {
   const auto lift_path = FindLiftPath(scene, inverse, finger, target, touching, around);
   if (!lift_path) return std::nullopt;
   std::optional<FingerPath> path =

@@ -24,12 +24,13 @@ using Touching = std::vector<TipContact>;
 /// @param pose  object pose in the palm's frame.
 /// @param tip  permitted proximity of the fingertip.
 /// @param others  all other fingers, as placed.
-[[nodiscard]] bool IsClear(const HandScene& scene, FingerIndex finger, const Posture& from,
-                           const Posture& to, const Eigen::Isometry3d& pose, TipContact tip,
+[[nodiscard]] bool IsClear(const HandScene& scene, FingerIndex finger,
+                           const JointConfiguration& from, const JointConfiguration& to,
+                           const Eigen::Isometry3d& pose, TipContact tip,
                            const std::vector<PlacedFinger>& others);
 
 /// Path of one finger: joint configurations, interpolated linearly.
-using FingerPath = std::vector<Posture>;
+using FingerPath = std::vector<JointConfiguration>;
 
 /// Stationary scene while one finger moves.
 struct Surroundings {
@@ -49,7 +50,8 @@ struct Surroundings {
 ///     100].
 /// @returns the path; nullopt if none is found.
 [[nodiscard]] std::optional<FingerPath> FindFreePath(const HandScene& scene, FingerIndex finger,
-                                                     const Posture& from, const Posture& to,
+                                                     const JointConfiguration& from,
+                                                     const JointConfiguration& to,
                                                      const Surroundings& around,
                                                      RandomStream& random,
                                                      int most_extensions = 100);
@@ -61,9 +63,12 @@ struct Surroundings {
 /// @param touching  joint configuration at the contact.
 /// @returns the path; nullopt if the fingertip does not reach a height from which it can move
 ///     freely.
-[[nodiscard]] std::optional<FingerPath> FindLiftPath(
-    const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
-    const kinematics::TipTarget& target, const Posture& touching, const Surroundings& around);
+[[nodiscard]] std::optional<FingerPath> FindLiftPath(const HandScene& scene,
+                                                     const kinematics::InverseKinematics& inverse,
+                                                     FingerIndex finger,
+                                                     const kinematics::TipTarget& target,
+                                                     const JointConfiguration& touching,
+                                                     const Surroundings& around);
 
 /// Plan a certified path of an idle finger to a contact.
 /// Consists of a free path to the end of the lift path (FindLiftPath) and the reversed lift path.
@@ -73,7 +78,7 @@ struct Surroundings {
 /// @returns the path; nullopt if none is found.
 [[nodiscard]] std::optional<FingerPath> FindPathToContact(
     const HandScene& scene, const kinematics::InverseKinematics& inverse, FingerIndex finger,
-    const Posture& from, const kinematics::TipTarget& target, const Posture& touching,
-    const Surroundings& around, RandomStream& random);
+    const JointConfiguration& from, const kinematics::TipTarget& target,
+    const JointConfiguration& touching, const Surroundings& around, RandomStream& random);
 
 }  // namespace regrasp::gait

@@ -16,8 +16,9 @@ Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d
 
 Keyframe Between(const Keyframe& from, const Keyframe& to, double fraction) {
   Keyframe frame{Between(from.pose, to.pose, fraction), {}};
-  for (std::size_t i = 0; i < from.postures.size(); ++i) {
-    frame.postures.emplace_back(from.postures[i] + fraction * (to.postures[i] - from.postures[i]));
+  for (std::size_t i = 0; i < from.configurations.size(); ++i) {
+    frame.configurations.emplace_back(from.configurations[i] +
+                                      fraction * (to.configurations[i] - from.configurations[i]));
   }
   return frame;
 }

@@ -40,8 +40,8 @@ void ForEachAssignment(const std::vector<int>& points, int fingers, const Take& 
 /// rotates about one fixed axis.
 struct Keyframe {
   Eigen::Isometry3d pose =
-      Eigen::Isometry3d::Identity();          ///< object pose in the palm's frame, metres
-  std::vector<kinematics::Posture> postures;  ///< joint configuration [finger]
+      Eigen::Isometry3d::Identity();  ///< object pose in the palm's frame, metres
+  std::vector<kinematics::JointConfiguration> configurations;  ///< joint configuration [finger]
 };
 
 [[nodiscard]] Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,

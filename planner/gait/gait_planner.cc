@@ -36,8 +36,8 @@ struct Relaxation {
 
 Relaxation MoreFriction() {
   return {"more friction", {1.1, 1.2, 1.5, 2}, [](double factor, GaitRequest& request) {
-            const double before = std::tan(request.criteria.half_angle);
-            request.criteria.half_angle = std::atan(factor * before);
+            const double before = std::tan(request.criteria.friction_angle);
+            request.criteria.friction_angle = std::atan(factor * before);
             return "a friction of " + FormatShort(factor * before, 3) + " instead of " +
                    FormatShort(before, 3);
           }};
@@ -205,7 +205,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   result.plan = PlanOf(*found.gait, request, found.contacts);
   if (found.execution && found.execution->is_whole) {
     result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
-                           FormatShort(std::floor(100 * found.execution->spare)) +
+                           FormatShort(std::floor(100 * found.execution->tolerance_margin)) +
                            " % of the replay's limits");
   } else if (found.execution) {
     const bool is_failure = !found.execution->is_cut_short;

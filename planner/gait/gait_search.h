@@ -172,9 +172,10 @@ class GaitSearch {
   [[nodiscard]] std::optional<Gait> PathTo(int index, int node) {
     return tree_.PathTo(index, node);
   }
-  /// Same as StanceTree::WithIdlePosture.
-  [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture) {
-    return tree_.WithIdlePosture(index, finger, posture);
+  /// Same as StanceTree::WithIdleConfiguration.
+  [[nodiscard]] int WithIdleConfiguration(int index, FingerIndex finger,
+                                          const JointConfiguration& configuration) {
+    return tree_.WithIdleConfiguration(index, finger, configuration);
   }
   /// Search more grid nodes that an expanded stance reaches.
   void ExtendReachable(int index) { tree_.ExtendReachable(tree_[index]); }

@@ -31,7 +31,7 @@ constexpr double kMaxJump = 0.35;
 /// First stride of the search for the end of a run, steps; a power of two.
 constexpr int kRunStride = 4;
 
-bool IsContinuous(const Posture& from, const Posture& to, int steps) {
+bool IsContinuous(const JointConfiguration& from, const JointConfiguration& to, int steps) {
   return (to - from).cwiseAbs().maxCoeff() <= steps * kMaxJump;
 }
 
@@ -75,19 +75,20 @@ std::vector<HandScene::ShapePair> HandScene::CheckedPairs(FingerIndex a, FingerI
   return pairs;
 }
 
-Posture HandScene::DrawPosture(FingerIndex finger, RandomStream& random) const {
+JointConfiguration HandScene::DrawConfiguration(FingerIndex finger, RandomStream& random) const {
   const Finger& chain = hand_.fingers[finger];
-  Posture posture(chain.drives);
+  JointConfiguration configuration(chain.drives);
   for (int i = 0; i < chain.drives; ++i) {
-    posture[i] = chain.lower[i] + (kLimitClearance + (1 - 2 * kLimitClearance) * random.Uniform()) *
-                                      (chain.upper[i] - chain.lower[i]);
+    configuration[i] =
+        chain.lower[i] + (kLimitClearance + (1 - 2 * kLimitClearance) * random.Uniform()) *
+                             (chain.upper[i] - chain.lower[i]);
   }
-  return posture;
+  return configuration;
 }
 
-PlacedFinger HandScene::Place(FingerIndex finger, const Posture& posture) const {
+PlacedFinger HandScene::Place(FingerIndex finger, const JointConfiguration& configuration) const {
   const Finger& chain = hand_.fingers[finger];
-  const kinematics::JointFrames frames = kinematics::FramesOf(chain, posture);
+  const kinematics::JointFrames frames = kinematics::FramesOf(chain, configuration);
   PlacedFinger placed;
   placed.finger = finger;
   for (const LinkShape& link : chain.shapes) {
@@ -150,7 +151,8 @@ bool HandScene::KeepsOffPalm(const Isometry3d& pose, Motion motion) const {
   });
 }
 
-double HandScene::MotionBound(FingerIndex finger, const Posture& from, const Posture& to) const {
+double HandScene::MotionBound(FingerIndex finger, const JointConfiguration& from,
+                              const JointConfiguration& to) const {
   const Finger& chain = hand_.fingers[finger];
   double bound = 0;
   for (std::size_t i = 0; i < chain.shapes.size(); ++i) {
@@ -170,41 +172,42 @@ kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePo
   return {pose * (contact.p - finger.tip.radius * contact.n), pose.linear() * contact.n};
 }
 
-std::optional<Posture> ReachMap::Compute(FingerIndex finger, int point, int node) const {
+std::optional<JointConfiguration> ReachMap::Compute(FingerIndex finger, int point, int node) const {
   const Eigen::Isometry3d pose = grid_.PoseAt(node);
   const kinematics::TipTarget target = TargetAt(scene_.finger(finger), points_[point], pose);
-  std::optional<Posture> posture = inverse_[finger].Solve(target);
-  if (!posture) return std::nullopt;
-  const PlacedFinger placed = scene_.Place(finger, *posture);
+  std::optional<JointConfiguration> configuration = inverse_[finger].Solve(target);
+  if (!configuration) return std::nullopt;
+  const PlacedFinger placed = scene_.Place(finger, *configuration);
   if (!scene_.KeepsOffHand(placed)) return std::nullopt;
   if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return std::nullopt;
-  return posture;
+  return configuration;
 }
 
 ReachMap::Cached& ReachMap::CachedAt(FingerIndex finger, int point, int node) {
   const std::size_t finger_point = static_cast<std::size_t>(finger) * points_.size() + point;
   const auto [found, is_new] = cache_.try_emplace(finger_point * grid_.size() + node);
-  if (is_new) found->second.posture = Compute(finger, point, node);
+  if (is_new) found->second.configuration = Compute(finger, point, node);
   return found->second;
 }
 
-const Posture* ReachMap::Find(FingerIndex finger, int point, int node) {
+const JointConfiguration* ReachMap::Find(FingerIndex finger, int point, int node) {
   const Cached& cached = CachedAt(finger, point, node);
-  return cached.posture ? &*cached.posture : nullptr;
+  return cached.configuration ? &*cached.configuration : nullptr;
 }
 
 bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour) {
-  const Posture* from = Find(finger, point, node);
-  const Posture* to = Find(finger, point, neighbour);
+  const JointConfiguration* from = Find(finger, point, node);
+  const JointConfiguration* to = Find(finger, point, neighbour);
   return from != nullptr && to != nullptr && IsContinuous(*from, *to, 1);
 }
 
 int ReachMap::ComputeRunEnd(FingerIndex finger, int point, int node) {
-  const Posture* at = Find(finger, point, node);
+  const JointConfiguration* at = Find(finger, point, node);
   for (int stride = kRunStride; stride > 0; stride /= 2) {
     while (true) {
       const int next = grid_.Onward(node, stride);
-      const Posture* then = next == PoseGrid::kNoNode ? nullptr : Find(finger, point, next);
+      const JointConfiguration* then =
+          next == PoseGrid::kNoNode ? nullptr : Find(finger, point, next);
       if (then == nullptr || !IsContinuous(*at, *then, stride)) break;
       node = next;
       at = then;

@@ -17,7 +17,7 @@
 
 namespace regrasp::gait {
 
-using kinematics::Posture;
+using kinematics::JointConfiguration;
 
 /// Permitted proximity of a fingertip to the object.
 enum class TipContact {
@@ -38,7 +38,7 @@ struct PlacedFinger {
 
 /// Clearance of sampled joint configurations in addition to the margin, metres.
 /// It leaves room to certify the paths between them.
-inline constexpr double kPostureMargin = 5e-4;
+inline constexpr double kConfigurationMargin = 5e-4;
 
 /// Collision checks between the links of a hand, its palm and an object.
 /// Lengths are in metres. Object poses map the object's frame (the file's axes and origin, scaled)
@@ -49,7 +49,7 @@ class HandScene {
 
   /// @param hand, surface  hand model and object surface; outlive this object.
   /// @param margin  minimum distance between links, palm and object, metres. Sampled joint
-  ///     configurations keep kPostureMargin more.
+  ///     configurations keep kConfigurationMargin more.
   HandScene(const kinematics::HandModel& hand, const collision::SurfaceTree& surface,
             double margin);
 
@@ -61,8 +61,10 @@ class HandScene {
   [[nodiscard]] double margin() const { return margin_; }
 
   /// Draw a joint configuration uniformly from the joint ranges, without their outermost 2 %.
-  [[nodiscard]] Posture DrawPosture(FingerIndex finger, RandomStream& random) const;
-  [[nodiscard]] PlacedFinger Place(FingerIndex finger, const Posture& posture) const;
+  [[nodiscard]] JointConfiguration DrawConfiguration(FingerIndex finger,
+                                                     RandomStream& random) const;
+  [[nodiscard]] PlacedFinger Place(FingerIndex finger,
+                                   const JointConfiguration& configuration) const;
 
   // `motion` is a bound on the approach of two shapes within a path interval, metres. If the check
   // passes, the whole interval keeps the margin.
@@ -85,8 +87,8 @@ class HandScene {
 
   /// Bound the motion of any point of a finger between two joint configurations.
   /// Length in metres.
-  [[nodiscard]] double MotionBound(FingerIndex finger, const Posture& from,
-                                   const Posture& to) const;
+  [[nodiscard]] double MotionBound(FingerIndex finger, const JointConfiguration& from,
+                                   const JointConfiguration& to) const;
   /// Bound the motion of any point of the object between two poses.
   /// Length in metres. The origin moves linearly, and the object rotates about one axis.
   [[nodiscard]] double MotionBound(const Eigen::Isometry3d& from,
@@ -95,7 +97,7 @@ class HandScene {
  private:
   using Part = kinematics::HandModel::Part;
   [[nodiscard]] double Needed(Motion motion) const {
-    return margin_ + motion.value_or(kPostureMargin);
+    return margin_ + motion.value_or(kConfigurationMargin);
   }
   /// Pair of shapes that may collide.
   /// Excluded are pairs that the hand model ignores: there are many, and they overlap, which is the
@@ -147,7 +149,7 @@ class ReachMap {
   /// The configuration is clear of palm, object and the finger's own links.
   /// @returns pointer valid for the lifetime of this object; null if the finger does not reach the
   ///     contact.
-  [[nodiscard]] const Posture* Find(FingerIndex finger, int point, int node);
+  [[nodiscard]] const JointConfiguration* Find(FingerIndex finger, int point, int node);
 
   /// Return whether a finger keeps its contact between adjacent grid nodes.
   /// The joint configuration must be continuous.
@@ -161,11 +163,12 @@ class ReachMap {
 
  private:
   struct Cached {
-    std::optional<Posture> posture;
+    std::optional<JointConfiguration> configuration;
     int run_end = -1;  ///< track step; −1 if not computed yet
   };
   [[nodiscard]] Cached& CachedAt(FingerIndex finger, int point, int node);
-  [[nodiscard]] std::optional<Posture> Compute(FingerIndex finger, int point, int node) const;
+  [[nodiscard]] std::optional<JointConfiguration> Compute(FingerIndex finger, int point,
+                                                          int node) const;
   [[nodiscard]] int ComputeRunEnd(FingerIndex finger, int point, int node);
 
   const HandScene& scene_;
@@ -192,6 +195,6 @@ struct HandSetup {
 };
 
 /// Candidate joint configurations of an idle finger [finger][candidate], best first.
-using IdlePostures = std::vector<std::vector<Posture>>;
+using IdleConfigurations = std::vector<std::vector<JointConfiguration>>;
 
 }  // namespace regrasp::gait

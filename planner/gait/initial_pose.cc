@@ -30,9 +30,9 @@ constexpr double kNoContact = 0.3;
 /// Number of sampled idle configurations; the maximum applies to a finger with little free space.
 constexpr int kIdleSamples = 160;
 constexpr int kMaxIdleSamples = 5000;
-constexpr int kMaxIdlePostures = 16;
+constexpr int kMaxIdleConfigurations = 16;
 /// Minimum distance between two idle postures of a finger, radians, norm over all joints.
-constexpr double kDistinctPosture = 0.5;
+constexpr double kDistinctConfiguration = 0.5;
 /// Poses of the track from which an idle posture must be clear.
 constexpr int kTrackSamples = 5;
 constexpr double kMaxIdleClearance = 0.02;  // metres; additional clearance is not rewarded
@@ -101,8 +101,9 @@ double GraspScoreOf(const HandSetup& setup, const PoseTrack& track, criteria::Gr
     for (FingerIndex finger{0}; finger < setup.scene.finger_count(); ++finger) {
       std::vector<Reached> contacts;
       for (int point = 0; point < static_cast<int>(setup.points.size()); point += every) {
-        const Posture* posture = reach.Find(finger, point, node);
-        if (posture != nullptr) contacts.push_back({point, setup.scene.Place(finger, *posture)});
+        const JointConfiguration* configuration = reach.Find(finger, point, node);
+        if (configuration != nullptr)
+          contacts.push_back({point, setup.scene.Place(finger, *configuration)});
       }
       reached.push_back(std::move(contacts));
     }
@@ -230,44 +231,46 @@ std::vector<Isometry3d> FindInitialPoses(const HandSetup& setup, const ObjectTas
   return poses;
 }
 
-std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup, const PoseTrack& track,
-                                             RandomStream& random) {
+std::optional<IdleConfigurations> FindIdleConfigurations(const HandSetup& setup,
+                                                         const PoseTrack& track,
+                                                         RandomStream& random) {
   struct Candidate {
     double score;
-    Posture posture;
+    JointConfiguration configuration;
   };
   const HandScene& scene = setup.scene;
   const int samples = track.steps() == 0 ? 1 : kTrackSamples;
-  IdlePostures idle_postures(scene.finger_count());
+  IdleConfigurations idle_configurations(scene.finger_count());
   for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
     std::vector<Candidate> candidates;
     for (int i = 0; i < kIdleSamples || (i < kMaxIdleSamples && candidates.empty()); ++i) {
-      const Posture& middle = setup.inverse[finger].middle();
-      Posture posture = i == 0 ? middle : scene.DrawPosture(finger, random);
-      const PlacedFinger placed = scene.Place(finger, posture);
+      const JointConfiguration& middle = setup.inverse[finger].middle();
+      JointConfiguration configuration = i == 0 ? middle : scene.DrawConfiguration(finger, random);
+      const PlacedFinger placed = scene.Place(finger, configuration);
       if (!scene.KeepsOffHand(placed)) continue;
       double clearance = kMaxIdleClearance;
-      for (int k = 0; k < samples && clearance > scene.margin() + kPostureMargin; ++k) {
+      for (int k = 0; k < samples && clearance > scene.margin() + kConfigurationMargin; ++k) {
         const Isometry3d pose = track.PoseAt(track.steps() * k / (kTrackSamples - 1.0));
         clearance = std::min(clearance, scene.DistanceFromObject(placed, pose, clearance));
       }
-      if (clearance <= scene.margin() + kPostureMargin) continue;
+      if (clearance <= scene.margin() + kConfigurationMargin) continue;
       // Beyond the maximum clearance, prefer configurations near the middle of the joint ranges.
-      const double bend = (posture - middle).norm();
-      candidates.push_back({clearance - kBendPenalty * bend, std::move(posture)});
+      const double bend = (configuration - middle).norm();
+      candidates.push_back({clearance - kBendPenalty * bend, std::move(configuration)});
     }
     std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::score);
     for (Candidate& candidate : candidates) {
-      std::vector<Posture>& chosen = idle_postures[finger];
-      if (static_cast<int>(chosen.size()) == kMaxIdlePostures) break;
-      const bool is_distinct = std::ranges::all_of(chosen, [&](const Posture& posture) {
-        return (posture - candidate.posture).norm() > kDistinctPosture;
-      });
-      if (is_distinct) chosen.push_back(std::move(candidate.posture));
+      std::vector<JointConfiguration>& chosen = idle_configurations[finger];
+      if (static_cast<int>(chosen.size()) == kMaxIdleConfigurations) break;
+      const bool is_distinct =
+          std::ranges::all_of(chosen, [&](const JointConfiguration& configuration) {
+            return (configuration - candidate.configuration).norm() > kDistinctConfiguration;
+          });
+      if (is_distinct) chosen.push_back(std::move(candidate.configuration));
     }
-    if (idle_postures[finger].empty()) return std::nullopt;
+    if (idle_configurations[finger].empty()) return std::nullopt;
   }
-  return idle_postures;
+  return idle_configurations;
 }
 
 }  // namespace regrasp::gait

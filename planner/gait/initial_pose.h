@@ -35,8 +35,8 @@ namespace regrasp::gait {
 /// Configurations with more clearance, up to 20 mm, and closer to the middle of the joint ranges
 /// come first.
 /// @returns candidates by finger; nullopt if a finger has none.
-[[nodiscard]] std::optional<IdlePostures> FindIdlePostures(const HandSetup& setup,
-                                                           const PoseTrack& track,
-                                                           RandomStream& random);
+[[nodiscard]] std::optional<IdleConfigurations> FindIdleConfigurations(const HandSetup& setup,
+                                                                       const PoseTrack& track,
+                                                                       RandomStream& random);
 
 }  // namespace regrasp::gait

@@ -10,7 +10,7 @@ namespace regrasp::gait {
 namespace {
 
 /// Joint configurations of a finger at one contact that differ only by rounding, radians.
-constexpr double kSamePosture = 1e-6;
+constexpr double kSameConfiguration = 1e-6;
 
 /// Maximum number of RRT extensions for a path that connects both trees.
 /// It is large because a failure discards both paths.
@@ -22,21 +22,21 @@ constexpr int kMaxJoins = 6;
 }  // namespace
 
 BidirectionalSearch::BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid,
-                                         IdlePostures idle_postures, const GaitEnds& ends,
-                                         criteria::GraspMemory& memory, RandomStream& random,
-                                         SimulateExecution simulate)
+                                         IdleConfigurations idle_configurations,
+                                         const GaitEnds& ends, criteria::GraspMemory& memory,
+                                         RandomStream& random, SimulateExecution simulate)
     : setup_(setup),
       grid_(grid),
       reversed_(grid.Reversed()),
-      idle_postures_(std::move(idle_postures)),
+      idle_configurations_(std::move(idle_configurations)),
       random_(random),
-      checker_(setup, grid_, idle_postures_),
+      checker_(setup, grid_, idle_configurations_),
       forward_(setup, grid_, checker_, ends, memory, random) {
   if (ends.start.empty() || ends.goal.empty() || !forward_.GoalIsHeld()) {
     forward_.SimulateEdges(std::move(simulate));
     return;
   }
-  if (grid.steps() > 0) reversed_checker_.emplace(setup, reversed_, idle_postures_);
+  if (grid.steps() > 0) reversed_checker_.emplace(setup, reversed_, idle_configurations_);
   backward_.emplace(setup, reversed_, reversed_checker_ ? *reversed_checker_ : checker_,
                     GaitEnds{ends.goal, ends.start, ends.goal_fingers, ends.start_fingers}, memory,
                     random);
@@ -124,12 +124,14 @@ std::optional<Gait> BidirectionalSearch::Join(int forward, int backward) {
     }
     if (!stuck.valid()) return std::nullopt;
     // Give the finger the same idle configuration in both trees.
-    const Posture& forward_posture = EndOf(*gait).postures[stuck];
-    const Posture& backward_posture = EndOf(*back).postures[stuck];
-    if (const int backward_copy = backward_->WithIdlePosture(backward, stuck, forward_posture);
+    const JointConfiguration& forward_configuration = EndOf(*gait).configurations[stuck];
+    const JointConfiguration& backward_configuration = EndOf(*back).configurations[stuck];
+    if (const int backward_copy =
+            backward_->WithIdleConfiguration(backward, stuck, forward_configuration);
         backward_copy >= 0) {
       backward = backward_copy;
-    } else if (const int forward_copy = forward_.WithIdlePosture(forward, stuck, backward_posture);
+    } else if (const int forward_copy =
+                   forward_.WithIdleConfiguration(forward, stuck, backward_configuration);
                forward_copy >= 0) {
       forward = forward_copy;
     } else {
@@ -144,10 +146,11 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
     FingerIndex& stuck) {
   std::vector<int> order;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
-    const Posture& posture = from.postures[finger];
+    const JointConfiguration& configuration = from.configurations[finger];
     if (assignment[finger] == kNone) {
-      if (posture != to.postures[finger]) order.push_back(finger);
-    } else if ((posture - to.postures[finger]).cwiseAbs().maxCoeff() > kSamePosture) {
+      if (configuration != to.configurations[finger]) order.push_back(finger);
+    } else if ((configuration - to.configurations[finger]).cwiseAbs().maxCoeff() >
+               kSameConfiguration) {
       return std::nullopt;
     }
   }
@@ -158,7 +161,7 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
     is_free = std::ranges::all_of(order, [&](int number) {
       const FingerIndex finger{number};
       const auto free_path =
-          FindFreePath(setup_.scene, finger, from.postures[finger], to.postures[finger],
+          FindFreePath(setup_.scene, finger, from.configurations[finger], to.configurations[finger],
                        AllExcept(setup_.scene, finger, path.back()), random_, kExtensionsToMeet);
       if (!free_path) {
         stuck = finger;
@@ -166,7 +169,7 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
       }
       for (std::size_t i = 1; i < free_path->size(); ++i) {
         path.push_back(path.back());
-        path.back().postures[finger] = (*free_path)[i];
+        path.back().configurations[finger] = (*free_path)[i];
       }
       return true;
     });
@@ -177,7 +180,7 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
   bool is_same = true;
   for (std::size_t finger = 0; finger < assignment.size(); ++finger) {
     touching.push_back(assignment[finger] == kNone ? TipContact::kFree : TipContact::kTouching);
-    is_same = is_same && path.back().postures[finger] == to.postures[finger];
+    is_same = is_same && path.back().configurations[finger] == to.configurations[finger];
   }
   if (is_same && path.back().pose.isApprox(to.pose, 0)) return path;
   // Remove the difference due to rounding.
@@ -186,17 +189,18 @@ std::optional<std::vector<Keyframe>> BidirectionalSearch::MoveIdleFingers(
   return path;
 }
 
-TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures forward,
-                       IdlePostures backward, criteria::GraspMemory& memory, RandomStream& random)
+TurnSearch::TurnSearch(const HandSetup& setup, const PoseTrack& track, IdleConfigurations forward,
+                       IdleConfigurations backward, criteria::GraspMemory& memory,
+                       RandomStream& random)
     : setup_(setup),
       grid_(track, setup.scene.hand().up, PoseGrid::End::kOrientation),
       back_grid_(track.Backwards(), setup.scene.hand().up, PoseGrid::End::kOrientation),
-      idle_postures_(std::move(forward)),
-      back_idle_postures_(std::move(backward)),
+      idle_configurations_(std::move(forward)),
+      back_idle_configurations_(std::move(backward)),
       memory_(memory),
       random_(random),
-      checker_(setup, grid_, idle_postures_),
-      back_checker_(setup, back_grid_, back_idle_postures_),
+      checker_(setup, grid_, idle_configurations_),
+      back_checker_(setup, back_grid_, back_idle_configurations_),
       forward_(setup, grid_, checker_, {}, memory, random) {}
 
 GaitCounts TurnSearch::counts() const {

@@ -36,8 +36,9 @@ class BidirectionalSearch : public StartSearch {
   /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
   /// @param simulate  simulator of edges (GaitSearch::SimulateEdges); used only if there is no
   ///     backward search.
-  BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid, IdlePostures idle_postures,
-                      const GaitEnds& ends, criteria::GraspMemory& memory, RandomStream& random,
+  BidirectionalSearch(const HandSetup& setup, const PoseGrid& grid,
+                      IdleConfigurations idle_configurations, const GaitEnds& ends,
+                      criteria::GraspMemory& memory, RandomStream& random,
                       SimulateExecution simulate);
   BidirectionalSearch(const BidirectionalSearch&) = delete;
   BidirectionalSearch& operator=(const BidirectionalSearch&) = delete;
@@ -69,7 +70,7 @@ class BidirectionalSearch : public StartSearch {
   const HandSetup& setup_;
   PoseGrid grid_;
   PoseGrid reversed_;
-  IdlePostures idle_postures_;
+  IdleConfigurations idle_configurations_;
   RandomStream& random_;
   ObjectMotionChecker checker_;
   std::optional<ObjectMotionChecker>
@@ -90,8 +91,8 @@ class TurnSearch : public StartSearch {
   /// @param track  track of the forward search.
   /// @param forward, backward  idle postures of the two directions.
   /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
-  TurnSearch(const HandSetup& setup, const PoseTrack& track, IdlePostures forward,
-             IdlePostures backward, criteria::GraspMemory& memory, RandomStream& random);
+  TurnSearch(const HandSetup& setup, const PoseTrack& track, IdleConfigurations forward,
+             IdleConfigurations backward, criteria::GraspMemory& memory, RandomStream& random);
   TurnSearch(const TurnSearch&) = delete;
   TurnSearch& operator=(const TurnSearch&) = delete;
 
@@ -128,8 +129,8 @@ class TurnSearch : public StartSearch {
   const HandSetup& setup_;
   PoseGrid grid_;
   PoseGrid back_grid_;
-  IdlePostures idle_postures_;
-  IdlePostures back_idle_postures_;
+  IdleConfigurations idle_configurations_;
+  IdleConfigurations back_idle_configurations_;
   criteria::GraspMemory& memory_;
   RandomStream& random_;
   ObjectMotionChecker checker_;

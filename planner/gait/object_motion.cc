@@ -49,7 +49,7 @@ class MotionBuilder {
     for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
       if (assignment_[finger] == kNone) continue;
       const Eigen::Vector3d centre =
-          kinematics::TipAt(setup_.scene.finger(finger), frame.postures[finger]).centre;
+          kinematics::TipAt(setup_.scene.finger(finger), frame.configurations[finger]).centre;
       if ((centre - TargetOf(finger, frame).centre).norm() > kTipOff) return false;
     }
     return true;
@@ -58,10 +58,10 @@ class MotionBuilder {
   [[nodiscard]] std::optional<Keyframe> Projected(Keyframe frame) const {
     for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
       if (assignment_[finger] == kNone) continue;
-      Posture& posture = frame.postures[finger];
-      const auto held = setup_.inverse[finger].SolveNear(TargetOf(finger, frame), posture);
+      JointConfiguration& configuration = frame.configurations[finger];
+      const auto held = setup_.inverse[finger].SolveNear(TargetOf(finger, frame), configuration);
       if (!held) return std::nullopt;
-      posture = *held;
+      configuration = *held;
     }
     return frame;
   }
@@ -91,7 +91,7 @@ Keyframe ObjectMotionChecker::FrameAt(const Stance& stance, int node) {
   Keyframe frame{grid_.PoseAt(node), stance.idle};
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (stance.assignment[finger] == kNone) continue;
-    frame.postures[finger] = *reach_.Find(finger, stance.assignment[finger], node);
+    frame.configurations[finger] = *reach_.Find(finger, stance.assignment[finger], node);
   }
   return frame;
 }
@@ -164,9 +164,10 @@ bool ObjectMotionChecker::IsPassable(const Stance& stance, int node) {
   return true;
 }
 
-std::optional<Posture> ObjectMotionChecker::PostureAbove(FingerIndex finger, int point, int node,
-                                                         double height) {
-  const Posture* touching = reach_.Find(finger, point, node);
+std::optional<JointConfiguration> ObjectMotionChecker::ConfigurationAbove(FingerIndex finger,
+                                                                          int point, int node,
+                                                                          double height) {
+  const JointConfiguration* touching = reach_.Find(finger, point, node);
   if (touching == nullptr) return std::nullopt;
   kinematics::TipTarget target =
       TargetAt(setup_.scene.finger(finger), setup_.points[point], grid_.PoseAt(node));
@@ -176,13 +177,13 @@ std::optional<Posture> ObjectMotionChecker::PostureAbove(FingerIndex finger, int
   return above;
 }
 
-bool ObjectMotionChecker::DrawIdlePostures(Stance& stance, int node, RandomStream& random) {
+bool ObjectMotionChecker::DrawIdleConfigurations(Stance& stance, int node, RandomStream& random) {
   for (const int drawn : random.Choose(setup_.scene.finger_count(), setup_.scene.finger_count())) {
     const FingerIndex finger{drawn};
     if (stance.assignment[finger] != kNone || stance.idle[finger].size() > 0) continue;
     bool is_placed = false;
     for (int i = 0; !is_placed && i < kIdleDraws; ++i) {
-      stance.idle[finger] = setup_.scene.DrawPosture(finger, random);
+      stance.idle[finger] = setup_.scene.DrawConfiguration(finger, random);
       is_placed = setup_.scene.KeepsOffHand(setup_.scene.Place(finger, stance.idle[finger])) &&
                   IsPassable(stance, node);
     }
@@ -199,18 +200,18 @@ bool ObjectMotionChecker::PlaceIdleFingers(Stance& stance, int node, RandomStrea
     if (reach_.Find(finger, stance.assignment[finger], node) == nullptr) return false;
   }
   if (!IsPassable(stance, node)) return false;
-  const std::vector<Posture> given = stance.idle;
-  if (UseIdlePostures(stance, node, before)) return true;
+  const std::vector<JointConfiguration> given = stance.idle;
+  if (UseIdleConfigurations(stance, node, before)) return true;
   for (int i = 0; random != nullptr && i < kIdleAttempts; ++i) {
     stance.idle = given;
-    if (DrawIdlePostures(stance, node, *random)) return true;
+    if (DrawIdleConfigurations(stance, node, *random)) return true;
   }
   return false;
 }
 
 bool ObjectMotionChecker::IdleAbove(Stance& stance, FingerIndex finger, int point, int node) {
   for (const double height : kIdleHeights) {
-    const auto above = PostureAbove(finger, point, node, height);
+    const auto above = ConfigurationAbove(finger, point, node, height);
     if (!above) continue;
     stance.idle[finger] = *above;
     if (IsPassable(stance, node)) return true;
@@ -218,14 +219,14 @@ bool ObjectMotionChecker::IdleAbove(Stance& stance, FingerIndex finger, int poin
   return false;
 }
 
-bool ObjectMotionChecker::UseIdlePostures(Stance& stance, int node, const Stance* before) {
+bool ObjectMotionChecker::UseIdleConfigurations(Stance& stance, int node, const Stance* before) {
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (stance.assignment[finger] != kNone || stance.idle[finger].size() > 0) continue;
-    const auto fits = [&](const Posture& posture) {
-      stance.idle[finger] = posture;
+    const auto fits = [&](const JointConfiguration& configuration) {
+      stance.idle[finger] = configuration;
       return IsPassable(stance, node);
     };
-    bool is_placed = std::ranges::any_of(idle_postures_[finger], fits);
+    bool is_placed = std::ranges::any_of(idle_configurations_[finger], fits);
     // The finger may stay a few millimetres above its former contact.
     const bool has_held = before != nullptr && before->assignment[finger] != kNone;
     if (!is_placed && !(has_held && IdleAbove(stance, finger, before->assignment[finger], node))) {

@@ -31,7 +31,7 @@ inline constexpr double kTipOff = 2e-5;
 /// Stance: the contacts of the holding fingers and the joint configurations of the idle fingers.
 struct Stance {
   ContactAssignment assignment;
-  std::vector<Posture> idle =
+  std::vector<JointConfiguration> idle =
       {};  ///< joint configuration [finger] of idle fingers; empty until chosen
 };
 
@@ -52,13 +52,14 @@ using GridEdges = std::set<std::pair<int, int>>;
 /// Checks at the grid nodes that holding fingers follow the object and that nothing collides.
 class ObjectMotionChecker {
  public:
-  /// @param idle_postures  candidate configurations of idle fingers. All arguments outlive this
+  /// @param idle_configurations  candidate configurations of idle fingers. All arguments outlive
+  /// this
   ///     object.
   ObjectMotionChecker(const HandSetup& setup, const PoseGrid& grid,
-                      const IdlePostures& idle_postures)
+                      const IdleConfigurations& idle_configurations)
       : setup_(setup),
         grid_(grid),
-        idle_postures_(idle_postures),
+        idle_configurations_(idle_configurations),
         reach_(setup.scene, setup.inverse, setup.points, grid) {}
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
@@ -74,7 +75,8 @@ class ObjectMotionChecker {
   /// @param node  grid node at which all holding fingers reach their contacts.
   [[nodiscard]] bool IsPassable(const Stance& stance, int node);
   /// Choose configurations for idle fingers that have none.
-  /// @param random  random stream for further candidates if `idle_postures` does not suffice; null:
+  /// @param random  random stream for further candidates if `idle_configurations` does not suffice;
+  /// null:
   ///     no further candidates.
   /// @param before  previous stance; a finger that it releases may idle above its former contact.
   ///     Null: none.
@@ -100,13 +102,13 @@ class ObjectMotionChecker {
  private:
   /// Choose the first collision-free candidate of each idle finger.
   /// The last candidate is above the finger's contact in `before`.
-  [[nodiscard]] bool UseIdlePostures(Stance& stance, int node, const Stance* before);
+  [[nodiscard]] bool UseIdleConfigurations(Stance& stance, int node, const Stance* before);
   /// Draw configurations finger by finger in random order.
-  [[nodiscard]] bool DrawIdlePostures(Stance& stance, int node, RandomStream& random);
+  [[nodiscard]] bool DrawIdleConfigurations(Stance& stance, int node, RandomStream& random);
   /// Return a configuration above a contact; nullopt if the finger does not reach it.
   /// @param height  height above the contact, metres.
-  [[nodiscard]] std::optional<Posture> PostureAbove(FingerIndex finger, int point, int node,
-                                                    double height);
+  [[nodiscard]] std::optional<JointConfiguration> ConfigurationAbove(FingerIndex finger, int point,
+                                                                     int node, double height);
   [[nodiscard]] bool CanFollow(const Stance& stance, int node, int neighbour);
   [[nodiscard]] bool KeepsOffPalm(int node);
   /// Return whether two holding fingers are clear of each other.
@@ -114,7 +116,7 @@ class ObjectMotionChecker {
 
   const HandSetup& setup_;
   const PoseGrid& grid_;
-  const IdlePostures& idle_postures_;
+  const IdleConfigurations& idle_configurations_;
   ReachMap reach_;
   // Caches, filled on demand: there are many grasps, but they consist of few contacts.
   std::unordered_map<int, bool> off_palm_;       ///< by grid node

@@ -11,13 +11,13 @@ namespace regrasp::gait {
 namespace {
 
 bool IsSameKeyframe(const Keyframe& a, const Keyframe& b) {
-  return a.pose.matrix() == b.pose.matrix() && a.postures == b.postures;
+  return a.pose.matrix() == b.pose.matrix() && a.configurations == b.configurations;
 }
 
 plan::HandState StateOf(const Keyframe& frame, const kinematics::HandModel& hand) {
   plan::HandState state{frame.pose, {}};
   for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
-    state.joints.push_back(kinematics::JointAngles(hand.fingers[i], frame.postures[i]));
+    state.joints.push_back(kinematics::JointAngles(hand.fingers[i], frame.configurations[i]));
   }
   return state;
 }
@@ -99,7 +99,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   plan::Plan plan;
   plan.scale = request.scale;
   plan.dimension = 3;
-  plan.half_angle = request.criteria.half_angle;
+  plan.friction_angle = request.criteria.friction_angle;
   plan.fingers = static_cast<int>(hand.fingers.size());
   plan.planner = "gait";
   plan.hand =

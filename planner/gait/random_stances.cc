@@ -17,7 +17,7 @@ constexpr int kRandomContacts = 24;
 /// Minimum distance between contacts and face borders, in diameters.
 constexpr double kRandomBorderClearance = 0.02;
 /// Number of configurations drawn for an idle finger.
-constexpr int kPostures = 200;
+constexpr int kConfigurations = 200;
 
 }  // namespace
 
@@ -65,12 +65,13 @@ bool RandomStances::PlaceAt(FingerIndex finger, const grasp::Contact& contact,
                             Holding& holding) const {
   const kinematics::Finger& chain = scene_.finger(finger);
   const SurfacePoint point{request_.scale * contact.p, contact.n};
-  const auto posture = inverse_[finger].Solve(TargetAt(chain, point, holding.stance.state.pose));
-  if (!posture) return false;
-  PlacedFinger placed = scene_.Place(finger, *posture);
+  const auto configuration =
+      inverse_[finger].Solve(TargetAt(chain, point, holding.stance.state.pose));
+  if (!configuration) return false;
+  PlacedFinger placed = scene_.Place(finger, *configuration);
   if (!IsClear(placed, holding, TipContact::kTouching)) return false;
   holding.placed.push_back(std::move(placed));
-  holding.stance.state.joints[finger] = kinematics::JointAngles(chain, *posture);
+  holding.stance.state.joints[finger] = kinematics::JointAngles(chain, *configuration);
   holding.stance.grasp.push_back({finger, contact});
   return true;
 }
@@ -118,12 +119,12 @@ bool RandomStances::PlaceIdleFingers(Holding& holding, RandomStream& random) con
   std::vector<std::vector<double>>& joints = holding.stance.state.joints;
   for (FingerIndex finger{0}; finger < scene_.finger_count(); ++finger) {
     for (int i = 0; joints[finger].empty(); ++i) {
-      if (i == kPostures) return false;
-      const Posture posture = scene_.DrawPosture(finger, random);
-      PlacedFinger placed = scene_.Place(finger, posture);
+      if (i == kConfigurations) return false;
+      const JointConfiguration configuration = scene_.DrawConfiguration(finger, random);
+      PlacedFinger placed = scene_.Place(finger, configuration);
       if (!IsClear(placed, holding, TipContact::kFree)) continue;
       holding.placed.push_back(std::move(placed));
-      joints[finger] = kinematics::JointAngles(scene_.finger(finger), posture);
+      joints[finger] = kinematics::JointAngles(scene_.finger(finger), configuration);
     }
   }
   return true;

@@ -28,7 +28,7 @@ struct GaitRequest : planning::InHandTask {
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
   /// Select the executable gait with the largest tolerance margin
-  /// (planning::ExecutionResult::spare) instead of the first one. Requires a simulator.
+  /// (planning::ExecutionResult::tolerance_margin) instead of the first one. Requires a simulator.
   bool seeks_most_margin = false;
   Deadline deadline = {};
   int jobs = 1;  ///< number of parallel searches if plans are simulated, ≥ 1

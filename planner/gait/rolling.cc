@@ -8,9 +8,10 @@
 
 namespace regrasp::gait {
 
-Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger, const Posture& posture,
+Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger,
+                                     const JointConfiguration& configuration,
                                      const Eigen::Isometry3d& pose) {
-  return pose.linear().transpose() * kinematics::FramesOf(finger, posture).back().linear();
+  return pose.linear().transpose() * kinematics::FramesOf(finger, configuration).back().linear();
 }
 
 SurfacePoint Rolled(const SurfacePoint& contact, const Eigen::Matrix3d& turn, double radius,
@@ -34,7 +35,7 @@ bool RollingTips::AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose
   }
   const grasp::Wrench weight{-(pose.linear().transpose() * setup_.scene.hand().up),
                              Eigen::Vector3d::Zero()};
-  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.half_angle(), weight,
+  return grasp::ComputeGraspForces(grasp, memory_.frame(), memory_.friction_angle(), weight,
                                    kGraspForceOverWeight)
              .margin >= setup_.force_margin;
 }
@@ -43,17 +44,19 @@ std::optional<RolledTip> RollingTips::Follow(FingerIndex finger, const RolledTip
                                              const Eigen::Isometry3d& from_pose,
                                              const Eigen::Isometry3d& to_pose) const {
   const kinematics::Finger& chain = setup_.scene.finger(finger);
-  const auto posture_at = [&](const SurfacePoint& contact, const Posture& near) {
+  const auto configuration_at = [&](const SurfacePoint& contact, const JointConfiguration& near) {
     return setup_.inverse[finger].SolveFrom(TargetAt(chain, contact, to_pose), near);
   };
-  const std::optional<Posture> unrolled = posture_at(tip.contact, tip.posture);
+  const std::optional<JointConfiguration> unrolled =
+      configuration_at(tip.contact, tip.configuration);
   if (!unrolled) return std::nullopt;
-  const Eigen::Matrix3d turn = FingertipOrientation(chain, *unrolled, to_pose) *
-                               FingertipOrientation(chain, tip.posture, from_pose).transpose();
+  const Eigen::Matrix3d turn =
+      FingertipOrientation(chain, *unrolled, to_pose) *
+      FingertipOrientation(chain, tip.configuration, from_pose).transpose();
   const SurfacePoint contact = Rolled(tip.contact, turn, chain.tip.radius, *setup_.rolled_on);
-  std::optional<Posture> posture = posture_at(contact, *unrolled);
-  if (!posture) return std::nullopt;
-  return RolledTip{contact, *std::move(posture)};
+  std::optional<JointConfiguration> configuration = configuration_at(contact, *unrolled);
+  if (!configuration) return std::nullopt;
+  return RolledTip{contact, *std::move(configuration)};
 }
 
 bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose,
@@ -61,7 +64,7 @@ bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose
   std::vector<PlacedFinger> placed;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     const auto& tip = tips[finger];
-    placed.push_back(setup_.scene.Place(finger, tip ? tip->posture : stance.idle[finger]));
+    placed.push_back(setup_.scene.Place(finger, tip ? tip->configuration : stance.idle[finger]));
     if (tip && !setup_.scene.KeepsOffHand(placed.back())) return false;
     const TipContact touching = tip ? TipContact::kTouching : TipContact::kFree;
     if (tip && !setup_.scene.KeepsOffObject(placed.back(), pose, touching)) return false;
@@ -90,7 +93,7 @@ void AddRolled(const HandScene& scene, const RolledTips& tips, Surroundings& aro
   if (tips.empty()) return;
   for (const PlacedFinger& other : around.others) {
     const auto& tip = tips[other.finger];
-    around.rolled.push_back(tip ? scene.Place(other.finger, tip->posture) : other);
+    around.rolled.push_back(tip ? scene.Place(other.finger, tip->configuration) : other);
   }
 }
 

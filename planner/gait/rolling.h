@@ -20,7 +20,7 @@ namespace regrasp::gait {
 /// Return the orientation of the fingertip in the object's frame.
 /// @param pose  object pose in the palm's frame.
 [[nodiscard]] Eigen::Matrix3d FingertipOrientation(const kinematics::Finger& finger,
-                                                   const Posture& posture,
+                                                   const JointConfiguration& configuration,
                                                    const Eigen::Isometry3d& pose);
 
 /// Compute the contact of a fingertip sphere after rolling without slipping.
@@ -37,7 +37,7 @@ namespace regrasp::gait {
 /// A holding fingertip after rolling.
 struct RolledTip {
   SurfacePoint contact;
-  Posture posture;
+  JointConfiguration configuration;
 };
 /// Assumed grasp force (sum of normal forces) relative to the object's weight.
 inline constexpr double kGraspForceOverWeight = 12;

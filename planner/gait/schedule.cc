@@ -163,8 +163,9 @@ class AttemptRunner {
     Outcome* best = nullptr;
     ForEachOutcome([&](Outcome& outcome) {
       if (!outcome.execution || !outcome.execution->is_whole) return;
-      const bool is_better = best == nullptr || (request_.seeks_most_margin &&
-                                                 outcome.execution->spare > best->execution->spare);
+      const bool is_better =
+          best == nullptr || (request_.seeks_most_margin && outcome.execution->tolerance_margin >
+                                                                best->execution->tolerance_margin);
       if (is_better) best = &outcome;
     });
     if (best == nullptr) return {};
@@ -360,22 +361,23 @@ std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& trac
                                                            const SearchTerms& terms,
                                                            RandomStream& random) {
   const HandSetup& setup = terms.setup;
-  std::optional<IdlePostures> idle_postures = FindIdlePostures(setup, track, random_);
-  if (!idle_postures) return nullptr;
+  std::optional<IdleConfigurations> idle_configurations =
+      FindIdleConfigurations(setup, track, random_);
+  if (!idle_configurations) return nullptr;
   const bool is_turn = !request_.goal_pose && track.steps() > 0;
   // Contacts roll, and edges are simulated, in the direction of time only.
   const bool is_one_directional = setup.rolled_on != nullptr || terms.simulate;
   const bool may_begin_anywhere = is_turn && !request_.start_pose && ends_.start.empty() &&
                                   ends_.goal.empty() && !is_one_directional;
   if (may_begin_anywhere) {
-    if (auto backward = FindIdlePostures(setup, track.Backwards(), random_)) {
-      return std::make_unique<TurnSearch>(setup, track, *std::move(idle_postures),
+    if (auto backward = FindIdleConfigurations(setup, track.Backwards(), random_)) {
+      return std::make_unique<TurnSearch>(setup, track, *std::move(idle_configurations),
                                           *std::move(backward), terms.memory, random);
     }
   }
   const PoseGrid grid(track, setup.scene.hand().up,
                       is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
-  return std::make_unique<BidirectionalSearch>(setup, grid, *std::move(idle_postures), ends_,
+  return std::make_unique<BidirectionalSearch>(setup, grid, *std::move(idle_configurations), ends_,
                                                terms.memory, random, terms.simulate);
 }
 

@@ -104,7 +104,8 @@ void StanceTree::IdleAsBefore(StanceNode& stance_node) const {
   }
 }
 
-int StanceTree::WithIdlePosture(int index, FingerIndex finger, const Posture& posture) {
+int StanceTree::WithIdleConfiguration(int index, FingerIndex finger,
+                                      const JointConfiguration& configuration) {
   std::vector<int> chain;
   int last = index;
   while (last >= 0 && nodes_[last].stance.assignment[finger] == kNone) {
@@ -123,10 +124,10 @@ int StanceTree::WithIdlePosture(int index, FingerIndex finger, const Posture& po
     stance_node.moves.clear();
     stance_node.blocked.clear();
     IdleAsBefore(stance_node);
-    stance_node.stance.idle[finger] = posture;
+    stance_node.stance.idle[finger] = configuration;
     const bool is_free = checker_.IsPassable(stance_node.stance, stance_node.node) &&
                          PlanPathFromParent(stance_node) &&
-                         stance_node.stance.idle[finger] == posture;
+                         stance_node.stance.idle[finger] == configuration;
     if (!is_free) return -1;
     last = Add(std::move(stance_node));
   }
@@ -142,7 +143,7 @@ int StanceTree::AfterIdlingAbove(int index) {
   Stance above = before;
   const int point = nodes_[index].stance.assignment[placed];
   if (!checker_.IdleAbove(above, placed, point, nodes_[index].node)) return -1;
-  const int begin = WithIdlePosture(parent, placed, above.idle[placed]);
+  const int begin = WithIdleConfiguration(parent, placed, above.idle[placed]);
   if (begin < 0) return -1;
   StanceNode stance_node = nodes_[index];
   stance_node.parent = begin;

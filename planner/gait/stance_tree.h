@@ -114,9 +114,10 @@ class StanceTree {
   /// root.
   /// @returns index of the copied node; −1 if a collision occurs or the root fixes the
   ///     configuration.
-  [[nodiscard]] int WithIdlePosture(int index, FingerIndex finger, const Posture& posture);
+  [[nodiscard]] int WithIdleConfiguration(int index, FingerIndex finger,
+                                          const JointConfiguration& configuration);
   /// Connect a node whose placed finger has no path.
-  /// Lets the finger idle above its future contact beforehand (WithIdlePosture).
+  /// Lets the finger idle above its future contact beforehand (WithIdleConfiguration).
   /// @returns index of the connected copy; −1 if it fails.
   [[nodiscard]] int AfterIdlingAbove(int index);
 

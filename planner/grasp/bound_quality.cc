@@ -106,28 +106,29 @@ std::optional<QualityBounds> BoundByHulls(const UnitContacts& contacts, double f
 }  // namespace
 
 std::optional<QualityBounds> BoundQualityByHull(std::span<const Contact> contacts,
-                                                const object::WrenchFrame& frame, double half_angle,
-                                                double relative_gap) {
+                                                const object::WrenchFrame& frame,
+                                                double friction_angle, double relative_gap) {
   if (!(relative_gap >= kLeastRelativeGap)) {
     throw std::invalid_argument("quality: relative gap below 1e-5");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
-  const double friction = std::tan(half_angle);
+  SetUnitNormalForces(units, friction_angle);
+  const double friction = std::tan(friction_angle);
   return frame.dimension == 3 ? BoundByHulls<6>(units, friction, relative_gap)
                               : BoundByHulls<3>(units, friction, relative_gap);
 }
 
 QualityBounds BoundQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                           double half_angle, double relative_gap) {
-  if (!IsForceClosure(contacts, frame, half_angle)) return {};
-  if (const auto bounds = BoundQualityByHull(contacts, frame, half_angle, relative_gap)) {
+                           double friction_angle, double relative_gap) {
+  if (!IsForceClosure(contacts, frame, friction_angle)) return {};
+  if (const auto bounds = BoundQualityByHull(contacts, frame, friction_angle, relative_gap)) {
     return *bounds;
   }
-  if (std::tan(half_angle) <= kMostFriction) {
-    return ComputeQuality(contacts, frame, half_angle, relative_gap);
+  if (std::tan(friction_angle) <= kMostFriction) {
+    return ComputeQuality(contacts, frame, friction_angle, relative_gap);
   }
-  return {0, std::hypot(1, std::tan(half_angle)), 0};  // no twist has a larger support everywhere
+  return {0, std::hypot(1, std::tan(friction_angle)),
+          0};  // no twist has a larger support everywhere
 }
 
 }  // namespace regrasp::grasp

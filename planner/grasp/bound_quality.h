@@ -24,20 +24,20 @@ inline constexpr double kLeastRelativeGap = 1e-5;
 /// The bounds differ from those of ComputeQuality within the gap. Plan files depend on the latter.
 ///
 /// Laws: as for ComputeQuality.
-/// @param half_angle    friction angle in radians, in (0, π/2).
+/// @param friction_angle    friction angle in radians, in (0, π/2).
 /// @param relative_gap  largest (upper − lower) / upper, at least kLeastRelativeGap. As in
 ///     ComputeQuality, the bounds may be farther apart: up to kQualityGap, or after
 ///     kMostQualityFacets.
 /// @throws std::invalid_argument  if the gap is smaller, or as TestForceClosure.
 [[nodiscard]] QualityBounds BoundQuality(std::span<const Contact> contacts,
-                                         const object::WrenchFrame& frame, double half_angle,
+                                         const object::WrenchFrame& frame, double friction_angle,
                                          double relative_gap = 0.01);
 
 /// Bound the quality as BoundQuality, but return nullopt if rounding breaks the hull.
 /// @param contacts  contacts that are force closure at the friction angle.
 [[nodiscard]] std::optional<QualityBounds> BoundQualityByHull(std::span<const Contact> contacts,
                                                               const object::WrenchFrame& frame,
-                                                              double half_angle,
+                                                              double friction_angle,
                                                               double relative_gap = 0.01);
 
 }  // namespace regrasp::grasp

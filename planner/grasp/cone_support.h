@@ -80,7 +80,7 @@ inline constexpr double kClearlyRefuted = 1e-10;
 /// There its support is 0: tan θ = −n·u / √(|u − (n·u) n|² + (torsion s)²). Not positive if not
 /// even the normal force works against the twist.
 template <int kDim>
-[[nodiscard]] inline double HeldOffHalfAngle(const UnitContact& contact, const double* twist) {
+[[nodiscard]] inline double HeldOffFrictionAngle(const UnitContact& contact, const double* twist) {
   const Eigen::Vector3d u = Velocity<kDim>(contact, twist);
   const double approach = contact.n.dot(u);
   const double turning = contact.torsion * Spin<kDim>(contact, twist);

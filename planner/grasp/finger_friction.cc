@@ -6,7 +6,7 @@
 
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/friction_search.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 namespace regrasp::grasp {
 
@@ -19,7 +19,8 @@ constexpr double kTolerance = 1e-9;
 /// Difference of friction angles below which fingers count as equally weak, radians.
 constexpr double kEqual = 1e-7;
 
-/// Upper bound on the distance between bounds on required friction angles (required_half_angle.h).
+/// Upper bound on the distance between bounds on required friction angles
+/// (required_friction_angle.h).
 constexpr double kBoundsApart = 1e-6;
 
 /// Substitute for the friction angle if no angle is enough.
@@ -33,7 +34,7 @@ Grasp Without(std::span<const Contact> contacts, std::size_t finger) {
 
 std::optional<double> RequiredWithout(std::span<const Contact> contacts, std::size_t finger,
                                       const object::WrenchFrame& frame) {
-  const auto required = ComputeRequiredHalfAngle(Without(contacts, finger), frame, kTolerance);
+  const auto required = ComputeRequiredFrictionAngle(Without(contacts, finger), frame, kTolerance);
   return required ? std::optional<double>(required->upper) : std::nullopt;
 }
 
@@ -47,8 +48,8 @@ bool IsWeaker(const FingerFriction& a, const FingerFriction& b) {
 /// Find the friction angle that a finger of a force-closure grasp requires itself.
 /// All others keep theirs. Bisects between 0 and the finger's own friction angle.
 template <int kDim>
-double FindRequired(FrictionSearch<kDim>& own, double half_angle) {
-  double lower = 0, upper = half_angle;
+double FindRequired(FrictionSearch<kDim>& own, double friction_angle) {
+  double lower = 0, upper = friction_angle;
   while (upper - lower > kTolerance) {
     const double middle = lower + (upper - lower) / 2;
     (own.Decide(middle) == Decision::kYes ? upper : lower) = middle;
@@ -58,13 +59,13 @@ double FindRequired(FrictionSearch<kDim>& own, double half_angle) {
 
 template <int kDim>
 std::vector<FingerFriction> MeasureAll(std::span<const Contact> contacts, const UnitContacts& units,
-                                       const object::WrenchFrame& frame, double half_angle) {
+                                       const object::WrenchFrame& frame, double friction_angle) {
   std::vector<FingerFriction> fingers;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::optional<double> without = RequiredWithout(contacts, i, frame);
-    const bool needed = !without || *without > half_angle;
+    const bool needed = !without || *without > friction_angle;
     FrictionSearch<kDim> own(units, i);
-    fingers.push_back({needed ? FindRequired(own, half_angle) : 0, needed, without});
+    fingers.push_back({needed ? FindRequired(own, friction_angle) : 0, needed, without});
   }
   return fingers;
 }
@@ -74,8 +75,8 @@ template <int kDim>
 class WeakestSearch {
  public:
   WeakestSearch(std::span<const Contact> contacts, const UnitContacts& units,
-                const object::WrenchFrame& frame, double half_angle)
-      : contacts_(contacts), units_(units), frame_(frame), half_angle_(half_angle) {}
+                const object::WrenchFrame& frame, double friction_angle)
+      : contacts_(contacts), units_(units), frame_(frame), friction_angle_(friction_angle) {}
 
   WeakFinger Find() {
     for (std::size_t i = 0; i < contacts_.size(); ++i) Include(i);
@@ -85,19 +86,19 @@ class WeakestSearch {
 
  private:
   void Include(std::size_t i) {
-    const bool needed = !IsForceClosure(Without(contacts_, i), frame_, half_angle_);
+    const bool needed = !IsForceClosure(Without(contacts_, i), frame_, friction_angle_);
     FrictionSearch<kDim> own(units_, i);
     const auto holds = [&](double angle) { return own.Decide(angle) == Decision::kYes; };
     if (i > 0) {
       const double most = weakest_.friction.required + kEqual;
       const double least = weakest_.friction.required - kEqual;
-      const bool needs_more = needed && most < half_angle_ && !holds(most);
+      const bool needs_more = needed && most < friction_angle_ && !holds(most);
       if (!needs_more) {
         if (least > 0 && (!needed || holds(least))) return;
         if (!NeedMoreWithout(i)) return;
       }
     }
-    const double required = needed ? FindRequired(own, half_angle_) : 0;
+    const double required = needed ? FindRequired(own, friction_angle_) : 0;
     weakest_ = {static_cast<int>(i), {required, needed, std::nullopt}};
     without_known_ = false;
   }
@@ -122,15 +123,15 @@ class WeakestSearch {
   std::span<const Contact> contacts_;
   const UnitContacts& units_;
   const object::WrenchFrame& frame_;
-  double half_angle_;
+  double friction_angle_;
   WeakFinger weakest_;
   bool without_known_ = false;
 };
 
 UnitContacts UnitContactsAt(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                            double half_angle) {
+                            double friction_angle) {
   UnitContacts units = MakeUnitContacts(contacts, ContactFrame(contacts, frame.dimension));
-  SetUnitForces(units, half_angle);
+  SetUnitForces(units, friction_angle);
   return units;
 }
 
@@ -138,11 +139,11 @@ UnitContacts UnitContactsAt(std::span<const Contact> contacts, const object::Wre
 
 std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> contacts,
                                                   const object::WrenchFrame& frame,
-                                                  double half_angle) {
-  if (!IsForceClosure(contacts, frame, half_angle)) return {};
-  const UnitContacts units = UnitContactsAt(contacts, frame, half_angle);
-  return frame.dimension == 3 ? MeasureAll<6>(contacts, units, frame, half_angle)
-                              : MeasureAll<3>(contacts, units, frame, half_angle);
+                                                  double friction_angle) {
+  if (!IsForceClosure(contacts, frame, friction_angle)) return {};
+  const UnitContacts units = UnitContactsAt(contacts, frame, friction_angle);
+  return frame.dimension == 3 ? MeasureAll<6>(contacts, units, frame, friction_angle)
+                              : MeasureAll<3>(contacts, units, frame, friction_angle);
 }
 
 int WeakestFinger(const std::vector<FingerFriction>& fingers) {
@@ -154,11 +155,12 @@ int WeakestFinger(const std::vector<FingerFriction>& fingers) {
 }
 
 std::optional<WeakFinger> FindWeakestFinger(std::span<const Contact> contacts,
-                                            const object::WrenchFrame& frame, double half_angle) {
-  if (!IsForceClosure(contacts, frame, half_angle)) return std::nullopt;
-  const UnitContacts units = UnitContactsAt(contacts, frame, half_angle);
-  return frame.dimension == 3 ? WeakestSearch<6>(contacts, units, frame, half_angle).Find()
-                              : WeakestSearch<3>(contacts, units, frame, half_angle).Find();
+                                            const object::WrenchFrame& frame,
+                                            double friction_angle) {
+  if (!IsForceClosure(contacts, frame, friction_angle)) return std::nullopt;
+  const UnitContacts units = UnitContactsAt(contacts, frame, friction_angle);
+  return frame.dimension == 3 ? WeakestSearch<6>(contacts, units, frame, friction_angle).Find()
+                              : WeakestSearch<3>(contacts, units, frame, friction_angle).Find();
 }
 
 }  // namespace regrasp::grasp

@@ -24,11 +24,12 @@ struct FingerFriction {
 ///
 /// Laws: `required` is at most the friction angle, and never increases when the friction angle
 /// does; independent of rigid motion and of the unit of length.
-/// @returns required friction per contact; empty if the grasp is not force closure at `half_angle`.
+/// @returns required friction per contact; empty if the grasp is not force closure at
+/// `friction_angle`.
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::vector<FingerFriction> MeasureFingerFriction(std::span<const Contact> contacts,
                                                                 const object::WrenchFrame& frame,
-                                                                double half_angle);
+                                                                double friction_angle);
 
 /// Return the finger with the smallest friction margin of its own; −1 if there is none.
 /// Among equal fingers, for example if no finger is necessary, it is the one without which the
@@ -47,6 +48,6 @@ struct WeakFinger {
 /// @throws std::invalid_argument  as TestForceClosure.
 [[nodiscard]] std::optional<WeakFinger> FindWeakestFinger(std::span<const Contact> contacts,
                                                           const object::WrenchFrame& frame,
-                                                          double half_angle);
+                                                          double friction_angle);
 
 }  // namespace regrasp::grasp

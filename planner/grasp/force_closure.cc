@@ -35,9 +35,9 @@ bool Coincide(std::span<const Contact> contacts) {
 }  // namespace
 
 ForceClosure TestForceClosure(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                              double half_angle) {
+                              double friction_angle) {
   CheckGrasp(contacts, frame);
-  CheckHalfAngle(half_angle);
+  CheckFrictionAngle(friction_angle);
   const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) {
     // Soft fingers at one point may resist every torque, but there is no frame to decide it in. The
@@ -48,7 +48,7 @@ ForceClosure TestForceClosure(std::span<const Contact> contacts, const object::W
   }
   if (!std::isfinite(own.radius)) return kUnknown;
   UnitContacts units = MakeUnitContacts(contacts, own);
-  SetUnitForces(units, half_angle);
+  SetUnitForces(units, friction_angle);
   const ForceClosure answer =
       frame.dimension == 3 ? DecideForceClosure<6>(units) : DecideForceClosure<3>(units);
   const bool unsure = answer.decision == Decision::kNo && IsUnresolved(contacts, own.radius);
@@ -56,8 +56,8 @@ ForceClosure TestForceClosure(std::span<const Contact> contacts, const object::W
 }
 
 bool IsForceClosure(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                    double half_angle) {
-  return TestForceClosure(contacts, frame, half_angle).decision == Decision::kYes;
+                    double friction_angle) {
+  return TestForceClosure(contacts, frame, friction_angle).decision == Decision::kYes;
 }
 
 }  // namespace regrasp::grasp

@@ -18,9 +18,9 @@ FrictionSearch<kDim>::FrictionSearch(UnitContacts contacts, std::size_t finger)
     : contacts_(std::move(contacts)), first_(finger), count_(1) {}
 
 template <int kDim>
-Decision FrictionSearch<kDim>::Decide(double half_angle) {
-  if (half_angle <= refuted_) return Decision::kNo;
-  SetRims(half_angle);
+Decision FrictionSearch<kDim>::Decide(double friction_angle) {
+  if (friction_angle <= refuted_) return Decision::kNo;
+  SetRims(friction_angle);
   Twist twist{};
   const Decision decision = DecideAtRims(twist);
   if (decision == Decision::kNo) RefuteUpTo(twist);
@@ -28,16 +28,16 @@ Decision FrictionSearch<kDim>::Decide(double half_angle) {
 }
 
 template <int kDim>
-Decision FrictionSearch<kDim>::DecideAlone(double half_angle) {
-  SetRims(half_angle);
+Decision FrictionSearch<kDim>::DecideAlone(double friction_angle) {
+  SetRims(friction_angle);
   return DecideForceClosure<kDim>(contacts_).decision;
 }
 
 template <int kDim>
-void FrictionSearch<kDim>::SetRims(double half_angle) {
+void FrictionSearch<kDim>::SetRims(double friction_angle) {
   for (UnitContact& contact : searched()) {
-    contact.axial = std::cos(half_angle);
-    contact.tangential = std::sin(half_angle);
+    contact.axial = std::cos(friction_angle);
+    contact.tangential = std::sin(friction_angle);
   }
 }
 
@@ -58,7 +58,7 @@ template <int kDim>
 void FrictionSearch<kDim>::RefuteUpTo(const Twist& twist) {
   double angle = std::numbers::pi / 2;
   for (const UnitContact& contact : searched()) {
-    angle = std::min(angle, HeldOffHalfAngle<kDim>(contact, twist.data()));
+    angle = std::min(angle, HeldOffFrictionAngle<kDim>(contact, twist.data()));
   }
   refuted_ = std::max(refuted_, angle - kClearlyRefuted);
 }

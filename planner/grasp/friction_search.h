@@ -25,16 +25,16 @@ class FrictionSearch {
   FrictionSearch(const FrictionSearch&) = delete;
   FrictionSearch& operator=(const FrictionSearch&) = delete;
 
-  [[nodiscard]] Decision Decide(double half_angle);
+  [[nodiscard]] Decision Decide(double friction_angle);
 
   /// Decide without reuse of earlier decisions, as TestForceClosure does.
-  [[nodiscard]] Decision DecideAlone(double half_angle);
+  [[nodiscard]] Decision DecideAlone(double friction_angle);
 
  private:
   using Twist = typename WrenchSimplex<kDim>::Vector;
 
   [[nodiscard]] std::span<UnitContact> searched() { return {contacts_.data() + first_, count_}; }
-  void SetRims(double half_angle);
+  void SetRims(double friction_angle);
   Decision DecideAtRims(Twist& twist);
   void RefuteUpTo(const Twist& twist);
 

@@ -64,9 +64,9 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
 }  // namespace
 
 GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                               double half_angle, const Wrench& load, double total_normal) {
+                               double friction_angle, const Wrench& load, double total_normal) {
   CheckGrasp(contacts, frame);
-  CheckHalfAngle(half_angle);
+  CheckFrictionAngle(friction_angle);
   if (!(total_normal > 0) || !std::isfinite(total_normal)) {
     throw std::invalid_argument("grasp forces: the total normal force is not positive");
   }
@@ -74,7 +74,7 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::
     throw std::invalid_argument("grasp forces: the load is not finite");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
+  SetUnitNormalForces(units, friction_angle);
   const Wrench unit_load{load.force / total_normal, load.torque_over_radius / total_normal};
   GraspForces result =
       frame.dimension == 3 ? Solve<6>(units, unit_load) : Solve<3>(units, unit_load);
@@ -117,7 +117,7 @@ GraspForces ComputeSlidingForces(const Grasp& grasp, std::span<const SlidingCont
   if (others.empty()) {
     result.margin = -(sum.force.lpNorm<1>() + sum.torque_over_radius.lpNorm<1>()) / total_normal;
   } else {
-    result = ComputeGraspForces(others, frame, friction.half_angle, sum, left);
+    result = ComputeGraspForces(others, frame, friction.friction_angle, sum, left);
   }
   auto next = result.forces.begin();
   for (std::size_t i = 0; i < grasp.size(); ++i) {

@@ -39,8 +39,9 @@ struct GraspForces {
 /// @throws std::invalid_argument  as TestForceClosure, if the load is not finite, or if
 ///     total_normal is not > 0.
 [[nodiscard]] GraspForces ComputeGraspForces(std::span<const Contact> contacts,
-                                             const object::WrenchFrame& frame, double half_angle,
-                                             const Wrench& load, double total_normal);
+                                             const object::WrenchFrame& frame,
+                                             double friction_angle, const Wrench& load,
+                                             double total_normal);
 
 /// Contact of a grasp whose fingertip slides along the surface.
 struct SlidingContact {
@@ -52,8 +53,8 @@ struct SlidingContact {
 
 /// Friction of a grasp with sliding fingertips.
 struct SlidingFriction {
-  double mu = 0;          ///< friction coefficient of the sliding contacts
-  double half_angle = 0;  ///< friction angle of the cones of the other contacts, radians
+  double mu = 0;              ///< friction coefficient of the sliding contacts
+  double friction_angle = 0;  ///< friction angle of the cones of the other contacts, radians
 };
 
 /// Compute contact forces while some fingertips slide.

@@ -6,7 +6,7 @@
 
 #include "planner/base/in_blocks.h"
 #include "planner/grasp/bound_quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::grasp {
@@ -44,14 +44,14 @@ void Load(const GraspArrays& grasps, std::size_t index, double torsion, Grasp& g
 
 void Judge(const Grasp& grasp, const JudgeOptions& options, std::size_t index,
            GraspVerdicts& verdicts) {
-  verdicts.force_closure[index] = TestForceClosure(grasp, options.frame, options.half_angle);
-  if (options.required_half_angle) {
-    const auto required = ComputeRequiredHalfAngle(grasp, options.frame);
-    verdicts.required_half_angle[index] =
+  verdicts.force_closure[index] = TestForceClosure(grasp, options.frame, options.friction_angle);
+  if (options.required_friction_angle) {
+    const auto required = ComputeRequiredFrictionAngle(grasp, options.frame);
+    verdicts.required_friction_angle[index] =
         required ? required->upper : std::numeric_limits<double>::quiet_NaN();
   }
   if (options.quality) {
-    const QualityBounds quality = BoundQuality(grasp, options.frame, options.half_angle);
+    const QualityBounds quality = BoundQuality(grasp, options.frame, options.friction_angle);
     verdicts.quality[index] = quality.lower;
     verdicts.quality_upper[index] = quality.upper;
   }
@@ -61,16 +61,16 @@ void Judge(const Grasp& grasp, const JudgeOptions& options, std::size_t index,
 
 GraspVerdicts JudgeGrasps(const GraspArrays& grasps, const JudgeOptions& options) {
   const std::size_t count = CountGrasps(grasps);
-  CheckHalfAngle(options.half_angle);
+  CheckFrictionAngle(options.friction_angle);
   GraspVerdicts verdicts;
   verdicts.force_closure.resize(count);
-  if (options.required_half_angle) verdicts.required_half_angle.resize(count);
+  if (options.required_friction_angle) verdicts.required_friction_angle.resize(count);
   if (options.quality) {
     verdicts.quality.resize(count);
     verdicts.quality_upper.resize(count);
   }
 
-  const bool slow = options.required_half_angle || options.quality;
+  const bool slow = options.required_friction_angle || options.quality;
   InBlocks(
       count, slow ? kBlockOfSlow : kBlock, options.threads,
       [&](std::size_t begin, std::size_t end) {

@@ -18,11 +18,11 @@ struct GraspArrays {
 
 /// Optional computations of JudgeGrasps, and the number of threads.
 struct JudgeOptions {
-  double half_angle = 0;  ///< friction angle, atan μ, radians in (0, π/2)
+  double friction_angle = 0;  ///< friction angle, atan μ, radians in (0, π/2)
   object::WrenchFrame frame;
   /// Torsional friction length of all contacts (Contact::torsion), in the unit of the points.
   double torsion = 0;
-  bool required_half_angle = false;
+  bool required_friction_angle = false;
   bool quality = false;
   int threads = 0;  ///< number of threads; 0: one per core of the machine
 };
@@ -31,12 +31,12 @@ struct JudgeOptions {
 struct GraspVerdicts {
   std::vector<ForceClosure> force_closure;
   /// Smallest friction angle proved to be enough, radians; NaN if no angle below π/2 is enough.
-  std::vector<double> required_half_angle;
+  std::vector<double> required_friction_angle;
   std::vector<double> quality;        ///< lower bound of BoundQuality, dimensionless
   std::vector<double> quality_upper;  ///< upper bound of BoundQuality
 };
 
-/// Evaluate every grasp with TestForceClosure, ComputeRequiredHalfAngle and BoundQuality.
+/// Evaluate every grasp with TestForceClosure, ComputeRequiredFrictionAngle and BoundQuality.
 ///
 /// Laws: each result is bit-identical to that of the function for a single grasp, for any number of
 /// threads.

@@ -41,11 +41,11 @@ std::optional<QualityBounds> SolveLargestLoad(const UnitContacts& contacts, cons
 }  // namespace
 
 std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contacts,
-                                                const object::WrenchFrame& frame, double half_angle,
-                                                const Wrench& load, const Wrench& direction,
-                                                double total_normal) {
+                                                const object::WrenchFrame& frame,
+                                                double friction_angle, const Wrench& load,
+                                                const Wrench& direction, double total_normal) {
   CheckGrasp(contacts, frame);
-  CheckHalfAngle(half_angle);
+  CheckFrictionAngle(friction_angle);
   if (!(total_normal > 0) || !std::isfinite(total_normal)) {
     throw std::invalid_argument("largest load: the total normal force is not positive");
   }
@@ -58,7 +58,7 @@ std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contact
     throw std::invalid_argument("largest load: the direction is zero");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
+  SetUnitNormalForces(units, friction_angle);
   const Wrench unit_load{load.force / total_normal, load.torque_over_radius / total_normal};
   return frame.dimension == 3 ? SolveLargestLoad<6>(units, unit_load, direction)
                               : SolveLargestLoad<3>(units, unit_load, direction);

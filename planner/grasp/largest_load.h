@@ -26,10 +26,8 @@ namespace regrasp::grasp {
 /// @param direction  direction of the load, not zero.
 /// @returns bounds on s; nullopt if not even `load` is balanced.
 /// @throws std::invalid_argument  as ComputeGraspForces, or if the direction is zero or not finite.
-[[nodiscard]] std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contacts,
-                                                              const object::WrenchFrame& frame,
-                                                              double half_angle, const Wrench& load,
-                                                              const Wrench& direction,
-                                                              double total_normal);
+[[nodiscard]] std::optional<QualityBounds> ComputeLargestLoad(
+    std::span<const Contact> contacts, const object::WrenchFrame& frame, double friction_angle,
+    const Wrench& load, const Wrench& direction, double total_normal);
 
 }  // namespace regrasp::grasp

@@ -106,9 +106,9 @@ bool AtLeast(const UnitContacts& contacts, double threshold) {
 }
 
 UnitContacts UnitNormalContacts(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                                double half_angle) {
+                                double friction_angle) {
   UnitContacts units = MakeUnitContacts(contacts, frame);
-  SetUnitNormalForces(units, half_angle);
+  SetUnitNormalForces(units, friction_angle);
   return units;
 }
 
@@ -122,19 +122,19 @@ std::string QualityText(const QualityBounds& quality, int digits) {
 }
 
 QualityBounds ComputeQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                             double half_angle, double relative_gap) {
+                             double friction_angle, double relative_gap) {
   if (!(relative_gap > 0)) throw std::invalid_argument("quality: relative gap not positive");
-  if (!IsForceClosure(contacts, frame, half_angle)) return {};
-  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
+  if (!IsForceClosure(contacts, frame, friction_angle)) return {};
+  const UnitContacts units = UnitNormalContacts(contacts, frame, friction_angle);
   return frame.dimension == 3 ? Quality<6>(units, relative_gap) : Quality<3>(units, relative_gap);
 }
 
 bool QualityAtLeast(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                    double half_angle, double threshold) {
+                    double friction_angle, double threshold) {
   if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
-  if (!IsForceClosure(contacts, frame, half_angle)) return threshold <= 0;
+  if (!IsForceClosure(contacts, frame, friction_angle)) return threshold <= 0;
   if (threshold <= 0) return true;
-  const UnitContacts units = UnitNormalContacts(contacts, frame, half_angle);
+  const UnitContacts units = UnitNormalContacts(contacts, frame, friction_angle);
   return frame.dimension == 3 ? AtLeast<6>(units, threshold) : AtLeast<3>(units, threshold);
 }
 

@@ -33,21 +33,21 @@ inline constexpr std::int64_t kMostQualityFacets = 300'000;
 /// It is the radius of the largest ball about the origin inside the wrenches that contact forces
 /// with Σ n_i·f_i ≤ 1 can apply, with torques over R. 0 if the grasp is not force closure.
 ///
-/// Laws: independent of order, rigid motion and unit of length; monotone in half_angle and in the
-/// set of contacts.
-/// @param half_angle  friction angle in radians, in (0, π/2).
+/// Laws: independent of order, rigid motion and unit of length; monotone in friction_angle and in
+/// the set of contacts.
+/// @param friction_angle  friction angle in radians, in (0, π/2).
 /// @param relative_gap  gap of the bounds: they are refined until upper − lower ≤ relative_gap ·
 ///     upper, or kQualityGap. They are farther apart if more than kMostQualityFacets would be
 ///     necessary, or because of rounding.
 [[nodiscard]] QualityBounds ComputeQuality(std::span<const Contact> contacts,
-                                           const object::WrenchFrame& frame, double half_angle,
+                                           const object::WrenchFrame& frame, double friction_angle,
                                            double relative_gap = 0.01);
 
 /// Return whether ε ≥ threshold is certain after at most kMostQualityFacets.
 /// Stops when it is decided, so it is much cheaper than ComputeQuality for grasps that are clearly
 /// better or worse.
 [[nodiscard]] bool QualityAtLeast(std::span<const Contact> contacts,
-                                  const object::WrenchFrame& frame, double half_angle,
+                                  const object::WrenchFrame& frame, double friction_angle,
                                   double threshold);
 
 }  // namespace regrasp::grasp

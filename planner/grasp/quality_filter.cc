@@ -16,15 +16,15 @@ constexpr std::size_t kMostTwists = 64;
 
 }  // namespace
 
-QualityFilter::QualityFilter(const object::WrenchFrame& frame, double half_angle)
-    : frame_(frame), half_angle_(half_angle) {
-  CheckHalfAngle(half_angle);
+QualityFilter::QualityFilter(const object::WrenchFrame& frame, double friction_angle)
+    : frame_(frame), friction_angle_(friction_angle) {
+  CheckFrictionAngle(friction_angle);
 }
 
 bool QualityFilter::IsClearlyAtLeast(std::span<const Contact> grasp, double threshold) {
   assert(threshold > 0);
   UnitContacts contacts = MakeUnitContacts(grasp, frame_);
-  SetUnitNormalForces(contacts, half_angle_);
+  SetUnitNormalForces(contacts, friction_angle_);
   return frame_.dimension == 3 ? Decide<6>(contacts, threshold) : Decide<3>(contacts, threshold);
 }
 

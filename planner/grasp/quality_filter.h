@@ -19,8 +19,8 @@ namespace regrasp::grasp {
 /// faster than ray shooting.
 class QualityFilter {
  public:
-  /// @param half_angle  friction angle in radians.
-  QualityFilter(const object::WrenchFrame& frame, double half_angle);
+  /// @param friction_angle  friction angle in radians.
+  QualityFilter(const object::WrenchFrame& frame, double friction_angle);
 
   /// Return true only if ε ≥ threshold is certain.
   /// False if ε is smaller, and also for some grasps just above the threshold. Takes at most 0.2
@@ -42,7 +42,7 @@ class QualityFilter {
   [[nodiscard]] bool IsRefuted(const UnitContacts& contacts, double threshold);
 
   object::WrenchFrame frame_;
-  double half_angle_;
+  double friction_angle_;
   /// Stored twists; those that refuted a grasp recently are nearer to the front.
   std::vector<Twist> twists_;
   std::int64_t shot_count_ = 0;

@@ -103,12 +103,12 @@ void TurnTable::Store(int a, int b, int c, Turn turn) {
 using Word = TurnTable::Word;
 
 UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::WrenchFrame& frame,
-                                double half_angle) {
+                                double friction_angle) {
   UnitContacts units = MakeUnitContacts(points, frame);
   if (HasTorsion(units)) {
     throw std::invalid_argument("force-closure subsets: pair lines decide hard points only");
   }
-  SetUnitForces(units, half_angle);
+  SetUnitForces(units, friction_angle);
   return units;
 }
 
@@ -125,12 +125,12 @@ SeparatorPool::Twist MovedBack(const SeparatorPool::Twist& twist, const Recentri
 class SubsetSearch {
  public:
   /// @param deadline, tell  arguments that must outlive this object.
-  SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
-               const Deadline& deadline, const Tell& tell)
+  SubsetSearch(std::span<const Contact> points, const object::WrenchFrame& frame,
+               double friction_angle, const Deadline& deadline, const Tell& tell)
       : count_(static_cast<int>(points.size())),
         deadline_(deadline),
         tell_(tell),
-        units_(MakeRimmedContacts(points, frame, half_angle)),
+        units_(MakeRimmedContacts(points, frame, friction_angle)),
         turns_(units_),
         separators_(units_),
         triples_(static_cast<std::size_t>(count_) * count_ * turns_.words()) {}
@@ -293,15 +293,15 @@ class SubsetSearch {
 
 std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> points,
                                                     const object::WrenchFrame& frame,
-                                                    double half_angle, SubsetCounts* counts,
+                                                    double friction_angle, SubsetCounts* counts,
                                                     const Deadline& deadline, const Tell& tell) {
   CheckGrasp(points, frame);
-  CheckHalfAngle(half_angle);
+  CheckFrictionAngle(friction_angle);
   if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
   const object::WrenchFrame own = ContactFrame(points, frame.dimension);
   if (counts != nullptr) *counts = {};
   if (!(own.radius > 0)) return {};
-  SubsetSearch search(points, own, half_angle, deadline, tell);
+  SubsetSearch search(points, own, friction_angle, deadline, tell);
   std::vector<std::array<int, 4>> found = search.Run();
   if (counts != nullptr) *counts = search.counts();
   return found;

@@ -38,7 +38,7 @@ struct SubsetCounts {
 ///     fingers.
 /// @throws TimeUp  if the deadline passes.
 [[nodiscard]] std::vector<std::array<int, 4>> ForceClosureSubsets(
-    std::span<const Contact> points, const object::WrenchFrame& frame, double half_angle,
+    std::span<const Contact> points, const object::WrenchFrame& frame, double friction_angle,
     SubsetCounts* counts = nullptr, const Deadline& deadline = {}, const Tell& tell = {});
 
 }  // namespace regrasp::grasp

@@ -47,8 +47,8 @@ void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& fr
   for (const Contact& contact : contacts) CheckContact(contact, frame.dimension);
 }
 
-void CheckHalfAngle(double half_angle) {
-  if (!(half_angle > 0) || !(half_angle < std::numbers::pi / 2)) {
+void CheckFrictionAngle(double friction_angle) {
+  if (!(friction_angle > 0) || !(friction_angle < std::numbers::pi / 2)) {
     Reject("the friction half-angle is not in (0, pi/2)");
   }
 }
@@ -96,17 +96,17 @@ bool HasTorsion(std::span<const UnitContact> contacts) {
   return std::ranges::any_of(contacts, [](const UnitContact& c) { return c.torsion > 0; });
 }
 
-void SetUnitForces(UnitContacts& contacts, double half_angle) {
-  const double axial = std::cos(half_angle);
-  const double tangential = std::sin(half_angle);
+void SetUnitForces(UnitContacts& contacts, double friction_angle) {
+  const double axial = std::cos(friction_angle);
+  const double tangential = std::sin(friction_angle);
   for (UnitContact& contact : contacts) {
     contact.axial = axial;
     contact.tangential = tangential;
   }
 }
 
-void SetUnitNormalForces(UnitContacts& contacts, double half_angle) {
-  const double tangential = std::tan(half_angle);
+void SetUnitNormalForces(UnitContacts& contacts, double friction_angle) {
+  const double tangential = std::tan(friction_angle);
   for (UnitContact& contact : contacts) {
     contact.axial = 1;
     contact.tangential = tangential;

@@ -50,7 +50,7 @@ void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& fr
 
 /// Check a friction angle.
 /// @throws std::invalid_argument  if θ is outside (0, π/2).
-void CheckHalfAngle(double half_angle);
+void CheckFrictionAngle(double friction_angle);
 
 /// Transform contacts to a frame of positive radius; their rims are not set.
 [[nodiscard]] UnitContacts MakeUnitContacts(std::span<const Contact> contacts,
@@ -76,10 +76,10 @@ Recentring Recentre(UnitContacts& contacts);
 
 /// Set the rims of all contacts to friction angle θ with forces of unit length.
 /// For a soft finger, the forces without a torque have unit length.
-void SetUnitForces(UnitContacts& contacts, double half_angle);
+void SetUnitForces(UnitContacts& contacts, double friction_angle);
 
 /// Set the rims of all contacts to friction angle θ with normal forces of 1.
-void SetUnitNormalForces(UnitContacts& contacts, double half_angle);
+void SetUnitNormalForces(UnitContacts& contacts, double friction_angle);
 
 /// View of contacts with one torsional friction length of all fingertips (Contact::torsion).
 /// Refers to copies, or to the contacts themselves if the torsion is 0. The contacts must outlive

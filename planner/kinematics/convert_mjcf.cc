@@ -98,7 +98,7 @@ class MjcfConverter {
     if (lacks_autolimits) AddAutolimits();
     const MeshPaths paths = {folder_ / Setting("compiler", "meshdir"),
                              Setting("compiler", "strippath") == "true"};
-    DropMissingLooks(paths, text_);
+    DropMissingVisuals(paths, text_);
     ListMeshes(paths);
   }
 

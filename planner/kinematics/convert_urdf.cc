@@ -206,7 +206,7 @@ void UrdfConverter::TakeMimic(const XmlElement& mimic, const std::string& joint)
 
 void ConvertUrdf(const fs::path& folder, ModelText& text) { UrdfConverter(folder, text).Convert(); }
 
-void DiscardLooks(const std::string& why, ModelText& text) {
+void DiscardVisuals(const std::string& why, ModelText& text) {
   for (XmlElement& link : text.root.children) {
     if (link.name == "link") {
       std::erase_if(link.children, [](const XmlElement& e) { return e.name == "visual"; });

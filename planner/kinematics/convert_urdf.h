@@ -22,6 +22,6 @@ void ConvertUrdf(const std::filesystem::path& folder, ModelText& text);
 
 /// Remove all visual geoms, for models whose visual geoms MuJoCo rejects.
 /// @param why  reason, for the list of conversions.
-void DiscardLooks(const std::string& why, ModelText& text);
+void DiscardVisuals(const std::string& why, ModelText& text);
 
 }  // namespace regrasp::kinematics

@@ -197,7 +197,8 @@ int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
 void HandDeriver::AddTip(TipBody& tip) {
   const int joint = tip.joints.back();
   const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, joint);
-  const Vector3d hinge = (from_world_.linear() * VectorAt(rest_->xaxis, joint)).normalized();
+  const Vector3d revolute_axis =
+      (from_world_.linear() * VectorAt(rest_->xaxis, joint)).normalized();
   const int geom = TipGeom(tip.body, anchor);
   tip.body = model_.geom_bodyid[geom];
   const ConvexShape shape = Moved(GeomPose(geom), ShapeOfGeom(model_, geom));
@@ -210,11 +211,11 @@ void HandDeriver::AddTip(TipBody& tip) {
     if ((point - anchor).norm() >= 0.9 * farthest) middle += (point - anchor).normalized();
   }
   TipDirections directions;
-  const Vector3d across = middle - middle.dot(hinge) * hinge;
+  const Vector3d across = middle - middle.dot(revolute_axis) * revolute_axis;
   const bool bends = across.norm() > 0.3 * middle.norm();
   directions.far = (bends ? across : middle).normalized();
   const double flexion = model_.jnt_range[2 * joint] + model_.jnt_range[2 * joint + 1] < 0 ? -1 : 1;
-  if (bends) directions.pad = flexion * hinge.cross(directions.far).normalized();
+  if (bends) directions.pad = flexion * revolute_axis.cross(directions.far).normalized();
   points_.push_back(directions.far);
   pads_.push_back(directions.pad);
   const std::string name = BodyName(model_, tip.body);

@@ -9,12 +9,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-double AngleOf(const Joint& joint, const Posture& posture) {
-  return joint.ratio * posture[joint.drive] + joint.coupling_offset;
+double AngleOf(const Joint& joint, const JointConfiguration& configuration) {
+  return joint.ratio * configuration[joint.drive] + joint.coupling_offset;
 }
 
-Eigen::Matrix3d TurnOf(const Joint& joint, const Posture& posture) {
-  return Eigen::AngleAxisd(AngleOf(joint, posture) - joint.rest, joint.axis).toRotationMatrix();
+Eigen::Matrix3d TurnOf(const Joint& joint, const JointConfiguration& configuration) {
+  return Eigen::AngleAxisd(AngleOf(joint, configuration) - joint.rest, joint.axis)
+      .toRotationMatrix();
 }
 
 }  // namespace
@@ -24,26 +25,26 @@ const Joint& LeadingJoint(const Finger& finger, int drive) {
   return *std::ranges::find_if(finger.joints, leads);
 }
 
-std::vector<double> JointAngles(const Finger& finger, const Posture& posture) {
+std::vector<double> JointAngles(const Finger& finger, const JointConfiguration& configuration) {
   std::vector<double> angles;
   angles.reserve(finger.joints.size());
-  for (const Joint& joint : finger.joints) angles.push_back(AngleOf(joint, posture));
+  for (const Joint& joint : finger.joints) angles.push_back(AngleOf(joint, configuration));
   return angles;
 }
 
-JointFrames FramesOf(const Finger& finger, const Posture& posture) {
+JointFrames FramesOf(const Finger& finger, const JointConfiguration& configuration) {
   JointFrames frames;
   frames.reserve(finger.joints.size());
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   for (const Joint& joint : finger.joints) {
     frame.translation() += frame.linear() * joint.offset;
-    frame.linear() *= TurnOf(joint, posture);
+    frame.linear() *= TurnOf(joint, configuration);
     frames.push_back(frame);
   }
   return frames;
 }
 
-TipState TipAt(const Finger& finger, const Posture& posture) {
+TipState TipAt(const Finger& finger, const JointConfiguration& configuration) {
   std::array<Vector3d, kMostJoints> origins;
   std::array<Vector3d, kMostJoints> axes;
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
@@ -52,7 +53,7 @@ TipState TipAt(const Finger& finger, const Posture& posture) {
   for (int i = 0; i < count; ++i) {
     const Joint& joint = finger.joints[i];
     origin += turned * joint.offset;
-    turned = turned * TurnOf(joint, posture);
+    turned = turned * TurnOf(joint, configuration);
     origins[i] = origin;
     axes[i].noalias() = turned * joint.axis;
   }
@@ -67,8 +68,8 @@ TipState TipAt(const Finger& finger, const Posture& posture) {
   return state;
 }
 
-double MotionBound(const Finger& finger, const Posture& from, const Posture& to, int after,
-                   const std::vector<double>& reach) {
+double MotionBound(const Finger& finger, const JointConfiguration& from,
+                   const JointConfiguration& to, int after, const std::vector<double>& reach) {
   double bound = 0;
   for (int i = 0; i < after; ++i) {
     const Joint& joint = finger.joints[i];

@@ -23,9 +23,10 @@ using JointFrames = std::vector<Eigen::Isometry3d>;
 [[nodiscard]] const Joint& LeadingJoint(const Finger& finger, int drive);
 
 /// Return the angles of all joints, coupled ones included, radians.
-[[nodiscard]] std::vector<double> JointAngles(const Finger& finger, const Posture& posture);
+[[nodiscard]] std::vector<double> JointAngles(const Finger& finger,
+                                              const JointConfiguration& configuration);
 
-[[nodiscard]] JointFrames FramesOf(const Finger& finger, const Posture& posture);
+[[nodiscard]] JointFrames FramesOf(const Finger& finger, const JointConfiguration& configuration);
 
 /// Position of a fingertip and its Jacobian.
 /// The position is the centre of the fingertip sphere in the palm's frame, metres. The Jacobian is
@@ -35,15 +36,16 @@ struct TipState {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< Fingertip::axis in the palm's frame
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostJoints> jacobian;
 };
-[[nodiscard]] TipState TipAt(const Finger& finger, const Posture& posture);
+[[nodiscard]] TipState TipAt(const Finger& finger, const JointConfiguration& configuration);
 
 /// Return an upper bound of the motion of any point of a link, metres.
 /// The finger moves straight from one joint configuration to another.
 /// The bound is Σ |Δq| times the largest distance of a point of the shape from the joint's axis.
 /// @param after  number of joints that move the link.
 /// @param reach  result of LinkReach.
-[[nodiscard]] double MotionBound(const Finger& finger, const Posture& from, const Posture& to,
-                                 int after, const std::vector<double>& reach);
+[[nodiscard]] double MotionBound(const Finger& finger, const JointConfiguration& from,
+                                 const JointConfiguration& to, int after,
+                                 const std::vector<double>& reach);
 
 /// Return the reach of a link by joint, metres.
 /// It is the largest distance of the shape's points from the joint's axis in any configuration, for

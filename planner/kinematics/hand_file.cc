@@ -144,8 +144,8 @@ void HandBuilder::AddFinger(int index) {
 /// can be anywhere on its axis.
 void HandBuilder::SetTipAxis(Finger& finger) {
   const Vector3d& centre = finger.tip.centre;
-  const Vector3d& hinge = finger.joints.back().axis;
-  const Vector3d across = centre - centre.dot(hinge) * hinge;
+  const Vector3d& revolute_axis = finger.joints.back().axis;
+  const Vector3d across = centre - centre.dot(revolute_axis) * revolute_axis;
   const bool bends = across.norm() > 0.3 * centre.norm();
   if (centre.norm() > 0) finger.tip.axis = (bends ? across : centre).normalized();
 }

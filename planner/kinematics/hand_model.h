@@ -79,6 +79,6 @@ struct HandModel {
 };
 
 /// Joint configuration of a finger: angle of each independent joint, radians.
-using Posture = Eigen::VectorXd;
+using JointConfiguration = Eigen::VectorXd;
 
 }  // namespace regrasp::kinematics

@@ -139,15 +139,17 @@ InspectedHand InspectHand(const fs::path& path) {
 }
 
 double LargestReach(const Finger& finger) {
-  const auto reach = [&](const Posture& posture) { return TipAt(finger, posture).centre.norm(); };
-  const Posture range = finger.upper - finger.lower;
-  Posture best = finger.lower;
+  const auto reach = [&](const JointConfiguration& configuration) {
+    return TipAt(finger, configuration).centre.norm();
+  };
+  const JointConfiguration range = finger.upper - finger.lower;
+  JointConfiguration best = finger.lower;
   // Odometer over all independent joints.
   std::vector<int> step(static_cast<std::size_t>(finger.drives), 0);
   for (bool more = true; more;) {
-    Posture posture = finger.lower;
-    for (int i = 0; i < finger.drives; ++i) posture[i] += range[i] * step[i] / kReachSteps;
-    if (reach(posture) > reach(best)) best = posture;
+    JointConfiguration configuration = finger.lower;
+    for (int i = 0; i < finger.drives; ++i) configuration[i] += range[i] * step[i] / kReachSteps;
+    if (reach(configuration) > reach(best)) best = configuration;
     more = false;
     for (int& at : step) {
       more = ++at <= kReachSteps;
@@ -158,9 +160,10 @@ double LargestReach(const Finger& finger) {
   for (double size = 0.5 / kReachSteps; size > kFinestStep; size /= 2) {
     for (int i = 0; i < finger.drives; ++i) {
       for (const int sign : {-1, 1}) {
-        Posture posture = best;
-        posture[i] = std::clamp(best[i] + sign * size * range[i], finger.lower[i], finger.upper[i]);
-        if (reach(posture) > reach(best)) best = posture;
+        JointConfiguration configuration = best;
+        configuration[i] =
+            std::clamp(best[i] + sign * size * range[i], finger.lower[i], finger.upper[i]);
+        if (reach(configuration) > reach(best)) best = configuration;
       }
     }
   }

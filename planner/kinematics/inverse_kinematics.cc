@@ -17,7 +17,7 @@ constexpr int kMostSamples = 12'000;
 constexpr double kCell = 0.010;  // metres
 /// Cost of a sample at one radian from the middle: the equivalent distance of its fingertip from
 /// the target, metres.
-constexpr double kPostureWeight = 0.004;
+constexpr double kConfigurationWeight = 0.004;
 /// Tolerance of a sample beyond the approach limit, radians, because the solver rotates the
 /// fingertip.
 constexpr double kApproachSlack = 0.35;
@@ -40,12 +40,13 @@ struct Step {
   double second_task = 0;  ///< largest joint motion that only serves the secondary task, radians
 };
 
-Step StepTo(const TipState& state, const Vector3d& error, const Posture& posture,
-            const Drives& to_middle, const Posture& lower, const Posture& upper) {
+Step StepTo(const TipState& state, const Vector3d& error, const JointConfiguration& configuration,
+            const Drives& to_middle, const JointConfiguration& lower,
+            const JointConfiguration& upper) {
   auto jacobian = state.jacobian;
   Drives second = to_middle;
   Step result;
-  for (int pass = 0; pass <= posture.size(); ++pass) {
+  for (int pass = 0; pass <= configuration.size(); ++pass) {
     const Matrix3d square = jacobian * jacobian.transpose() + kDamping * Matrix3d::Identity();
     const Matrix3d inverse = square.inverse();
     const Drives first = jacobian.transpose() * (inverse * error);
@@ -53,9 +54,9 @@ Step StepTo(const TipState& state, const Vector3d& error, const Posture& posture
     result.step = first + null;
     result.second_task = null.size() > 0 ? null.cwiseAbs().maxCoeff() : 0;
     bool changed = false;
-    for (Eigen::Index i = 0; i < posture.size(); ++i) {
-      const bool beyond = (posture[i] <= lower[i] && result.step[i] < 0) ||
-                          (posture[i] >= upper[i] && result.step[i] > 0);
+    for (Eigen::Index i = 0; i < configuration.size(); ++i) {
+      const bool beyond = (configuration[i] <= lower[i] && result.step[i] < 0) ||
+                          (configuration[i] >= upper[i] && result.step[i] > 0);
       if (!beyond || jacobian.col(i).isZero(0)) continue;
       jacobian.col(i).setZero();
       second[i] = 0;
@@ -70,7 +71,7 @@ Step StepTo(const TipState& state, const Vector3d& error, const Posture& posture
 
 }  // namespace
 
-InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& limits)
+InverseKinematics::InverseKinematics(const Finger& finger, const ConfigurationLimits& limits)
     : finger_(finger), limits_(limits), range_(finger.upper - finger.lower) {
   lower_ = finger.lower;
   upper_ = finger.upper;
@@ -84,16 +85,16 @@ InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& 
       std::max(2, static_cast<int>(std::floor(std::pow(kMostSamples, 1.0 / finger.drives) + 1e-9)));
   int count = 1;
   for (int i = 0; i < finger.drives; ++i) count *= steps;
-  std::vector<Posture> postures;
+  std::vector<JointConfiguration> configurations;
   std::vector<TipState> tips;
   Eigen::AlignedBox3d box;
   for (int index = 0; index < count; ++index) {
-    Posture posture(finger.drives);
+    JointConfiguration configuration(finger.drives);
     for (int i = 0, rest = index; i < finger.drives; ++i, rest /= steps) {
-      posture[i] = lower_[i] + (upper_[i] - lower_[i]) * (rest % steps + 0.5) / steps;
+      configuration[i] = lower_[i] + (upper_[i] - lower_[i]) * (rest % steps + 0.5) / steps;
     }
-    tips.push_back(TipAt(finger, posture));
-    postures.push_back(std::move(posture));
+    tips.push_back(TipAt(finger, configuration));
+    configurations.push_back(std::move(configuration));
     box.extend(tips.back().centre);
   }
   corner_ = box.min();
@@ -107,8 +108,9 @@ InverseKinematics::InverseKinematics(const Finger& finger, const PostureLimits& 
   for (const int i : order) ++first_of_cell_[cell[i] + 1];
   std::partial_sum(first_of_cell_.begin(), first_of_cell_.end(), first_of_cell_.begin());
   for (const int i : order) {
-    samples_.push_back(postures[i]);
-    off_middle_.push_back(kPostureWeight * kPostureWeight * (postures[i] - middle_).squaredNorm());
+    samples_.push_back(configurations[i]);
+    off_middle_.push_back(kConfigurationWeight * kConfigurationWeight *
+                          (configurations[i] - middle_).squaredNorm());
     centres_.push_back(tips[i].centre);
     axes_.push_back(tips[i].axis);
   }
@@ -151,47 +153,49 @@ int InverseKinematics::NearestSample(const TipTarget& target) const {
   return best;
 }
 
-bool InverseKinematics::Fits(const TipTarget& target, const Posture& posture) const {
-  return TipAt(finger_, posture).axis.dot(target.towards) >= std::cos(limits_.approach);
+bool InverseKinematics::Fits(const TipTarget& target,
+                             const JointConfiguration& configuration) const {
+  return TipAt(finger_, configuration).axis.dot(target.towards) >= std::cos(limits_.approach);
 }
 
-std::optional<Posture> InverseKinematics::Solve(const TipTarget& target) const {
+std::optional<JointConfiguration> InverseKinematics::Solve(const TipTarget& target) const {
   const int sample = NearestSample(target);
   if (sample < 0) return std::nullopt;
   return SolveFrom(target, samples_[sample]);
 }
 
-std::optional<Posture> InverseKinematics::SolveFrom(const TipTarget& target,
-                                                    const Posture& start) const {
+std::optional<JointConfiguration> InverseKinematics::SolveFrom(
+    const TipTarget& target, const JointConfiguration& start) const {
   return Iterate(target, start, true);
 }
 
-std::optional<Posture> InverseKinematics::SolveNear(const TipTarget& target,
-                                                    const Posture& start) const {
+std::optional<JointConfiguration> InverseKinematics::SolveNear(
+    const TipTarget& target, const JointConfiguration& start) const {
   return Iterate(target, start, false);
 }
 
-std::optional<Posture> InverseKinematics::Iterate(const TipTarget& target, const Posture& start,
-                                                  bool towards_middle) const {
-  Posture posture = start;
+std::optional<JointConfiguration> InverseKinematics::Iterate(const TipTarget& target,
+                                                             const JointConfiguration& start,
+                                                             bool towards_middle) const {
+  JointConfiguration configuration = start;
   bool settled = !towards_middle;
   double off_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kIterations; ++i) {
-    const TipState state = TipAt(finger_, posture);
+    const TipState state = TipAt(finger_, configuration);
     const Vector3d error = target.centre - state.centre;
     if (i % kPatience == 0) {
       if (error.norm() > std::max(kFarOff, off_before / 2)) return std::nullopt;
       off_before = error.norm();
     }
     if (settled && error.norm() <= kTipTolerance) {
-      return Fits(target, posture) ? std::optional(posture) : std::nullopt;
+      return Fits(target, configuration) ? std::optional(configuration) : std::nullopt;
     }
     // In the last iterations joint centering is dropped so that the position converges.
     const bool to_middle = !settled && i < kIterations - 10;
-    const Drives second = to_middle ? Drives(kTowardsMiddle * (middle_ - posture))
-                                    : Drives(Drives::Zero(posture.size()));
-    const Step step = StepTo(state, error, posture, second, lower_, upper_);
-    posture = (posture + step.step).cwiseMax(lower_).cwiseMin(upper_);
+    const Drives second = to_middle ? Drives(kTowardsMiddle * (middle_ - configuration))
+                                    : Drives(Drives::Zero(configuration.size()));
+    const Step step = StepTo(state, error, configuration, second, lower_, upper_);
+    configuration = (configuration + step.step).cwiseMax(lower_).cwiseMin(upper_);
     if (!to_middle || step.second_task < kSettled) settled = true;
   }
   return std::nullopt;

@@ -17,7 +17,7 @@ struct TipTarget {
 };
 
 /// Constraints on a joint configuration in addition to the fingertip's position.
-struct PostureLimits {
+struct ConfigurationLimits {
   double from_limits = 0.02;  ///< distance of joints from their limits, radians
   /// Largest angle between pointing direction (Fingertip::axis) and contact, radians.
   /// A finger touches with its end and its pad, not with its back.
@@ -39,19 +39,19 @@ inline constexpr double kTipTolerance = 1e-9;
 class InverseKinematics {
  public:
   /// @param finger  kinematic chain; outlives this object.
-  explicit InverseKinematics(const Finger& finger, const PostureLimits& limits = {});
+  explicit InverseKinematics(const Finger& finger, const ConfigurationLimits& limits = {});
 
   /// Return the joint configuration of a target.
   /// @returns nullopt if none is found.
-  [[nodiscard]] std::optional<Posture> Solve(const TipTarget& target) const;
+  [[nodiscard]] std::optional<JointConfiguration> Solve(const TipTarget& target) const;
   /// Return the configuration of a target on the solution branch of a nearby configuration.
-  [[nodiscard]] std::optional<Posture> SolveFrom(const TipTarget& target,
-                                                 const Posture& start) const;
+  [[nodiscard]] std::optional<JointConfiguration> SolveFrom(const TipTarget& target,
+                                                            const JointConfiguration& start) const;
 
   /// Return the configuration of a target that is near a start, without joint centering.
   /// Used for paths between two given configurations.
-  [[nodiscard]] std::optional<Posture> SolveNear(const TipTarget& target,
-                                                 const Posture& start) const;
+  [[nodiscard]] std::optional<JointConfiguration> SolveNear(const TipTarget& target,
+                                                            const JointConfiguration& start) const;
 
   /// Return whether the fingertip of a sampled configuration is near the target. If not, no inverse
   /// kinematics is computed.
@@ -59,7 +59,7 @@ class InverseKinematics {
 
   [[nodiscard]] const Finger& finger() const { return finger_; }
   /// Return the middle of the joint ranges.
-  [[nodiscard]] const Posture& middle() const { return middle_; }
+  [[nodiscard]] const JointConfiguration& middle() const { return middle_; }
   /// Return the fingertip positions of the samples, metres.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& sampled_tips() const { return centres_; }
 
@@ -67,15 +67,16 @@ class InverseKinematics {
   [[nodiscard]] int NearestSample(const TipTarget& target) const;
   [[nodiscard]] int CellOf(const Eigen::Vector3i& cell) const;
   [[nodiscard]] Eigen::Vector3i CellAt(const Eigen::Vector3d& point) const;
-  [[nodiscard]] std::optional<Posture> Iterate(const TipTarget& target, const Posture& start,
-                                               bool towards_middle) const;
-  [[nodiscard]] bool Fits(const TipTarget& target, const Posture& posture) const;
+  [[nodiscard]] std::optional<JointConfiguration> Iterate(const TipTarget& target,
+                                                          const JointConfiguration& start,
+                                                          bool towards_middle) const;
+  [[nodiscard]] bool Fits(const TipTarget& target, const JointConfiguration& configuration) const;
 
   const Finger& finger_;
-  PostureLimits limits_;
-  Posture lower_, upper_, middle_, range_;
-  std::vector<Posture> samples_;    ///< sorted by cell
-  std::vector<double> off_middle_;  ///< costs of distance from the middle, square metres
+  ConfigurationLimits limits_;
+  JointConfiguration lower_, upper_, middle_, range_;
+  std::vector<JointConfiguration> samples_;  ///< sorted by cell
+  std::vector<double> off_middle_;           ///< costs of distance from the middle, square metres
   std::vector<Eigen::Vector3d> centres_;
   std::vector<Eigen::Vector3d> axes_;
   Eigen::Vector3d corner_;          ///< corner of the grid of cells

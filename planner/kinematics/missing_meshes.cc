@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class LookDropper {
+class VisualDropper {
  public:
-  LookDropper(const MeshPaths& paths, ModelText& text)
+  VisualDropper(const MeshPaths& paths, ModelText& text)
       : paths_(paths), text_(text), defaults_(text.root) {}
 
   void Drop() {
@@ -103,6 +103,8 @@ std::string WhyMeshIsMissing(const fs::path& path) {
   return "";
 }
 
-void DropMissingLooks(const MeshPaths& paths, ModelText& text) { LookDropper(paths, text).Drop(); }
+void DropMissingVisuals(const MeshPaths& paths, ModelText& text) {
+  VisualDropper(paths, text).Drop();
+}
 
 }  // namespace regrasp::kinematics

@@ -25,6 +25,6 @@ struct MeshPaths {
 /// These geoms neither collide nor have mass. Each removed geom is listed as a conversion.
 /// @throws InputError  if a geom with such a mesh collides or has mass. The message names the line
 ///     and the file.
-void DropMissingLooks(const MeshPaths& paths, ModelText& text);
+void DropMissingVisuals(const MeshPaths& paths, ModelText& text);
 
 }  // namespace regrasp::kinematics

@@ -198,7 +198,7 @@ CompiledModel CompileModel(const fs::path& path) {
     } catch (const std::runtime_error& error) {
       // MuJoCo's requirements on meshes are stricter than visual geoms need.
       if (text.root.name != "robot") throw;
-      DiscardLooks(error.what(), text);
+      DiscardVisuals(error.what(), text);
       compiled.model = Compile(path, text);
     }
     if (!text.damping_ratios.empty()) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 namespace regrasp::motion {
 

@@ -54,8 +54,8 @@ struct Piece {
 template <int kSpace>
 class MotionProofSearch {
  public:
-  MotionProofSearch(const GraspMotion& motion, double half_angle, const Nearness& nearness)
-      : motion_(motion), half_angle_(half_angle), nearness_(nearness) {}
+  MotionProofSearch(const GraspMotion& motion, double friction_angle, const Nearness& nearness)
+      : motion_(motion), friction_angle_(friction_angle), nearness_(nearness) {}
 
   /// Find proofs of consecutive pieces.
   /// @param shortest  length of the shortest pieces.
@@ -130,7 +130,7 @@ class MotionProofSearch {
       contacts.push_back({PointAt(contact, t), NormalAt(contact, t), 0, 0, contact.from().torsion});
     }
     grasp::Recentre(contacts);
-    grasp::SetUnitForces(contacts, half_angle_);
+    grasp::SetUnitForces(contacts, friction_angle_);
     return grasp::DecideForceClosure<kDim>(contacts).decision == grasp::Decision::kYes;
   }
 
@@ -141,7 +141,7 @@ class MotionProofSearch {
     Vector3d velocity = Vector3d::Zero();
     MovingContacts contacts;
     for (const ContactMotion& contact : motion_) {
-      double angle = half_angle_;
+      double angle = friction_angle_;
       if (Turns(contact)) angle -= contact.turn() * (piece.to - piece.from) / 2 + kTurnRoom;
       if (!(angle > 0)) return {};
       contacts.push_back({PointAt(contact, piece.from), PointAt(contact, piece.to),
@@ -239,7 +239,7 @@ class MotionProofSearch {
   }
 
   const GraspMotion& motion_;
-  double half_angle_;
+  double friction_angle_;
   Nearness nearness_;
 };
 
@@ -252,20 +252,20 @@ bool CanBeProved(const GraspMotion& motion) {
 }  // namespace
 
 std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion, int dimension,
-                                              double half_angle, double from, double to) {
-  grasp::CheckHalfAngle(half_angle);
+                                              double friction_angle, double from, double to) {
+  grasp::CheckFrictionAngle(friction_angle);
   if (!CanBeProved(motion)) return std::nullopt;
   const Piece piece{from, to};
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForChecks).Prove(piece)
-                        : MotionProofSearch<2>(motion, half_angle, kForChecks).Prove(piece);
+  return dimension == 3 ? MotionProofSearch<3>(motion, friction_angle, kForChecks).Prove(piece)
+                        : MotionProofSearch<2>(motion, friction_angle, kForChecks).Prove(piece);
 }
 
 std::optional<std::vector<MotionSegment>> FindMotionProof(const GraspMotion& motion, int dimension,
-                                                          double half_angle, double shortest) {
-  grasp::CheckHalfAngle(half_angle);
+                                                          double friction_angle, double shortest) {
+  grasp::CheckFrictionAngle(friction_angle);
   if (!CanBeProved(motion)) return std::nullopt;
-  return dimension == 3 ? MotionProofSearch<3>(motion, half_angle, kForPlans).Find(shortest)
-                        : MotionProofSearch<2>(motion, half_angle, kForPlans).Find(shortest);
+  return dimension == 3 ? MotionProofSearch<3>(motion, friction_angle, kForPlans).Find(shortest)
+                        : MotionProofSearch<2>(motion, friction_angle, kForPlans).Find(shortest);
 }
 
 }  // namespace regrasp::motion

@@ -45,11 +45,11 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 /// the limit than FindMotionProof (kLargestWeightNearLimit).
 ///
 /// @param dimension   3, or 2 for planar contacts.
-/// @param half_angle  friction angle in radians, in (0, π/2).
+/// @param friction_angle  friction angle in radians, in (0, π/2).
 /// @returns the proof; nullopt if none was found, which does not prove the opposite.
-/// @throws std::invalid_argument  if half_angle is out of range.
+/// @throws std::invalid_argument  if friction_angle is out of range.
 [[nodiscard]] std::optional<MotionSegment> FindSegmentProof(const GraspMotion& motion,
-                                                            int dimension, double half_angle,
+                                                            int dimension, double friction_angle,
                                                             double from, double to);
 
 /// Search for proofs throughout a motion: consecutive pieces from 0 to 1 (FindSegmentProof).
@@ -58,12 +58,12 @@ inline constexpr double kShortestProofPiece = 1.0 / 4096;
 ///
 /// Takes about 10 µs for four contacts in space if one piece is enough.
 /// @param dimension   3, or 2 for planar contacts.
-/// @param half_angle  friction angle in radians, in (0, π/2).
+/// @param friction_angle  friction angle in radians, in (0, π/2).
 /// @param shortest    length of the shortest pieces.
 /// @returns the proofs; nullopt if none were found, which does not prove the opposite.
-/// @throws std::invalid_argument  if half_angle is out of range.
+/// @throws std::invalid_argument  if friction_angle is out of range.
 [[nodiscard]] std::optional<std::vector<MotionSegment>> FindMotionProof(
-    const GraspMotion& motion, int dimension, double half_angle,
+    const GraspMotion& motion, int dimension, double friction_angle,
     double shortest = kShortestProofPiece);
 
 }  // namespace regrasp::motion

@@ -23,8 +23,8 @@ constexpr int kPatience = 200;
 /// Tolerance of required friction angles of single instants, radians.
 constexpr double kInstantAccuracy = kPathAngleAccuracy / 100;
 
-/// Largest friction angle of ComputeRequiredHalfAngle.
-constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
+/// Largest friction angle of ComputeRequiredFrictionAngle.
+constexpr double kLargestFrictionAngle = std::numbers::pi / 2 - 1e-6;
 
 /// Proofs of pieces of a motion, found in floating point and checked in exact arithmetic.
 class SegmentProofs {
@@ -36,11 +36,11 @@ class SegmentProofs {
     }
   }
 
-  [[nodiscard]] std::optional<MotionSegment> Prove(double half_angle, double from,
+  [[nodiscard]] std::optional<MotionSegment> Prove(double friction_angle, double from,
                                                    double to) const {
-    auto proof = FindSegmentProof(motion_, dimension_, half_angle, from, to);
+    auto proof = FindSegmentProof(motion_, dimension_, friction_angle, from, to);
     if (!proof) return std::nullopt;
-    const double mu = std::tan(half_angle);
+    const double mu = std::tan(friction_angle);
     if (!CheckSegmentProof(from_, to_, dimension_, mu, *proof).proves()) return std::nullopt;
     return proof;
   }
@@ -54,12 +54,12 @@ class SegmentProofs {
 
 class PathDecision {
  public:
-  PathDecision(const GraspMotion& motion, const object::WrenchFrame& frame, double half_angle,
+  PathDecision(const GraspMotion& motion, const object::WrenchFrame& frame, double friction_angle,
                ProofBudget& budget)
       : motion_(motion),
         proofs_(motion, frame.dimension),
         frame_(frame),
-        half_angle_(half_angle),
+        friction_angle_(friction_angle),
         budget_(budget) {}
 
   PathForceClosure Decide() {
@@ -76,7 +76,7 @@ class PathDecision {
       return EndEarly(centre);
     }
     if (!HoldsAt(centre)) return Lose(centre);
-    if (auto proof = proofs_.Prove(half_angle_, from, to)) {
+    if (auto proof = proofs_.Prove(friction_angle_, from, to)) {
       result_.pieces.push_back(*std::move(proof));
       return;
     }
@@ -96,7 +96,7 @@ class PathDecision {
   }
 
   [[nodiscard]] bool HoldsAt(double t) const {
-    return grasp::IsForceClosure(GraspAt(motion_, t), frame_, half_angle_);
+    return grasp::IsForceClosure(GraspAt(motion_, t), frame_, friction_angle_);
   }
 
   void Lose(double t) {
@@ -118,7 +118,7 @@ class PathDecision {
   const GraspMotion& motion_;
   SegmentProofs proofs_;
   const object::WrenchFrame& frame_;
-  double half_angle_;
+  double friction_angle_;
   ProofBudget& budget_;
   int intervals_ = 0;
   PathForceClosure result_;
@@ -154,7 +154,7 @@ class PathAngle {
   }
 
   [[nodiscard]] bool complete() const { return complete_; }
-  [[nodiscard]] grasp::RequiredHalfAngle bounds() const { return {bounds_.lower, proved_}; }
+  [[nodiscard]] grasp::RequiredFrictionAngle bounds() const { return {bounds_.lower, proved_}; }
 
  private:
   struct Interval {
@@ -187,13 +187,13 @@ class PathAngle {
 
   /// Return the required friction angle, but at least that of earlier instants.
   /// This suffices for the bound.
-  [[nodiscard]] std::optional<grasp::RequiredHalfAngle> RequiredAt(double t) const {
+  [[nodiscard]] std::optional<grasp::RequiredFrictionAngle> RequiredAt(double t) const {
     const grasp::Grasp grasp = GraspAt(motion_, t);
-    if (!proven_ || *proven_ > kLargestHalfAngle) {
-      return grasp::ComputeRequiredHalfAngle(grasp, frame_, kInstantAccuracy);
+    if (!proven_ || *proven_ > kLargestFrictionAngle) {
+      return grasp::ComputeRequiredFrictionAngle(grasp, frame_, kInstantAccuracy);
     }
     const double lower = std::min(bounds_.lower, *proven_);
-    return grasp::NarrowRequiredHalfAngle(grasp, frame_, {lower, *proven_}, kInstantAccuracy);
+    return grasp::NarrowRequiredFrictionAngle(grasp, frame_, {lower, *proven_}, kInstantAccuracy);
   }
 
   bool Add(double from, double to) {
@@ -213,12 +213,12 @@ class PathAngle {
     const int widened = intervals_++ / kPatience;
     const double slack =
         std::ldexp(kPathAngleAccuracy, widened) * std::max(1.0, kWidenBelow / interval.length());
-    const double angle = std::min(bounds_.upper + slack, kLargestHalfAngle);
+    const double angle = std::min(bounds_.upper + slack, kLargestFrictionAngle);
     if (proofs_.Prove(angle, interval.from, interval.to)) {
       proved_ = std::max(proved_, angle);
       return true;
     }
-    if (angle == kLargestHalfAngle || interval.length() <= kShortestInterval) complete_ = false;
+    if (angle == kLargestFrictionAngle || interval.length() <= kShortestInterval) complete_ = false;
     const double middle = interval.from + interval.length() / 2;
     return Add(interval.from, middle) && Add(middle, interval.to);
   }
@@ -228,7 +228,7 @@ class PathAngle {
   const object::WrenchFrame& frame_;
   std::optional<double> proven_;
   ProofBudget& budget_;
-  grasp::RequiredHalfAngle bounds_;  ///< bounds over the instants evaluated so far
+  grasp::RequiredFrictionAngle bounds_;  ///< bounds over the instants evaluated so far
   std::priority_queue<Interval> open_;
   double proved_ = 0;
   bool complete_ = true;
@@ -243,22 +243,22 @@ ProofBudget BudgetOf(const GraspMotion& motion) {
 }  // namespace
 
 PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const object::WrenchFrame& frame,
-                                        double half_angle, ProofBudget& budget) {
-  return PathDecision(motion, frame, half_angle, budget).Decide();
+                                        double friction_angle, ProofBudget& budget) {
+  return PathDecision(motion, frame, friction_angle, budget).Decide();
 }
 
 PathForceClosure DecidePathForceClosure(const GraspMotion& motion, const object::WrenchFrame& frame,
-                                        double half_angle) {
+                                        double friction_angle) {
   ProofBudget budget = BudgetOf(motion);
-  return DecidePathForceClosure(motion, frame, half_angle, budget);
+  return DecidePathForceClosure(motion, frame, friction_angle, budget);
 }
 
-std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+std::optional<grasp::RequiredFrictionAngle> ComputePathRequiredFrictionAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget) {
   PathAngle search(motion, frame, proven, budget);
   if (!search.Search()) return std::nullopt;
-  grasp::RequiredHalfAngle bounds = search.bounds();
+  grasp::RequiredFrictionAngle bounds = search.bounds();
   if (!search.complete()) {
     if (!proven) return std::nullopt;
     bounds.upper = *proven;
@@ -267,10 +267,10 @@ std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
   return bounds;
 }
 
-std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+std::optional<grasp::RequiredFrictionAngle> ComputePathRequiredFrictionAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven) {
   ProofBudget budget = BudgetOf(motion);
-  return ComputePathRequiredHalfAngle(motion, frame, proven, budget);
+  return ComputePathRequiredFrictionAngle(motion, frame, proven, budget);
 }
 
 }  // namespace regrasp::motion

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/contact_motion.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/motion/motion_segment.h"
@@ -48,17 +48,17 @@ struct PathForceClosure {
 ///
 /// The decision stops early after kMostIntervals intervals, or if the budget is exhausted.
 ///
-/// Laws: monotone in half_angle. A motion that is not force closure at some instant, however short
-/// the interval, is never decided kYes.
+/// Laws: monotone in friction_angle. A motion that is not force closure at some instant, however
+/// short the interval, is never decided kYes.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const object::WrenchFrame& frame,
-                                                      double half_angle, ProofBudget& budget);
+                                                      double friction_angle, ProofBudget& budget);
 /// Decide force closure of a motion with a default budget.
 [[nodiscard]] PathForceClosure DecidePathForceClosure(const GraspMotion& motion,
                                                       const object::WrenchFrame& frame,
-                                                      double half_angle);
+                                                      double friction_angle);
 
-/// Accuracy of ComputePathRequiredHalfAngle, radians (0.006°), if proofs succeed at it.
+/// Accuracy of ComputePathRequiredFrictionAngle, radians (0.006°), if proofs succeed at it.
 inline constexpr double kPathAngleAccuracy = 1e-4;
 
 /// Compute bounds on the largest required friction angle along a motion.
@@ -70,11 +70,11 @@ inline constexpr double kPathAngleAccuracy = 1e-4;
 ///     upper limit of `upper`.
 /// @returns bounds; nullopt if an instant is force closure at no angle, or no angle below π/2 could
 ///     be proved for the whole path.
-[[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+[[nodiscard]] std::optional<grasp::RequiredFrictionAngle> ComputePathRequiredFrictionAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven,
     ProofBudget& budget);
 /// Compute the same bounds with a default budget.
-[[nodiscard]] std::optional<grasp::RequiredHalfAngle> ComputePathRequiredHalfAngle(
+[[nodiscard]] std::optional<grasp::RequiredFrictionAngle> ComputePathRequiredFrictionAngle(
     const GraspMotion& motion, const object::WrenchFrame& frame, std::optional<double> proven);
 
 }  // namespace regrasp::motion

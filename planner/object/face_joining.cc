@@ -22,15 +22,15 @@ struct Facet {
   double longest_edge = 0;
   int across_longest = -1;
   bool sliver = false;
-  bool invented = false;
+  bool filled = false;
 };
 
 std::vector<Facet> CollectFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
-                                 double diameter, const std::vector<bool>& invented) {
+                                 double diameter, const std::vector<bool>& filled) {
   std::vector<Facet> facets(mesh.flat_count);
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
     Facet& facet = facets[mesh.flat_of_triangle[t]];
-    facet.invented = !invented.empty() && invented[mesh.facet_of_triangle[t]];
+    facet.filled = !filled.empty() && filled[mesh.facet_of_triangle[t]];
     facet.area_vector += DoubleAreaVector(mesh, t) / 2;
     for (int k = 0; k < 3; ++k) {
       const int other = mesh.flat_of_triangle[topology.neighbor[t][k]];
@@ -68,7 +68,7 @@ void Grow(const std::vector<Facet>& facets, int seed, FaceIndex face,
       if (face_of[next].valid() || facets[next].sliver) continue;
       if (!SameDirection(facets[next].normal, facets[f].normal) ||
           !SameDirection(facets[next].normal, facets[seed].normal) ||
-          facets[next].invented != facets[seed].invented) {
+          facets[next].filled != facets[seed].filled) {
         continue;
       }
       face_of[next] = face;
@@ -126,9 +126,9 @@ void Renumber(std::vector<FaceIndex>& face_of) {
 }  // namespace
 
 std::vector<FaceIndex> JoinCoplanarFacets(const TriangleMesh& mesh, const SurfaceTopology& topology,
-                                          double diameter, const std::vector<bool>& invented) {
+                                          double diameter, const std::vector<bool>& filled) {
   std::vector<FaceIndex> face_of_facet =
-      JoinFacets(CollectFacets(mesh, topology, diameter, invented));
+      JoinFacets(CollectFacets(mesh, topology, diameter, filled));
   Renumber(face_of_facet);
   std::vector<FaceIndex> face_of_triangle;
   face_of_triangle.reserve(mesh.triangles.size());

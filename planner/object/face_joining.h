@@ -22,6 +22,6 @@ inline constexpr double kSliverThickness = 1e-7;
 [[nodiscard]] std::vector<FaceIndex> JoinCoplanarFacets(const TriangleMesh& mesh,
                                                         const SurfaceTopology& topology,
                                                         double diameter,
-                                                        const std::vector<bool>& invented = {});
+                                                        const std::vector<bool>& filled = {});
 
 }  // namespace regrasp::object

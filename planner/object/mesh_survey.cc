@@ -12,7 +12,7 @@
 #include "planner/base/number.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/facet_triangulation.h"
-#include "planner/object/mend_soup.h"
+#include "planner/object/repair_soup.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/surface_parts.h"
 #include "planner/object/triangle_mesh.h"

@@ -33,7 +33,7 @@ struct Face {
   /// on the left as seen from outside. In the plane: the start of the edge, then its end.
   std::vector<FaceBorder> borders;
   bool enclosed = false;  ///< same as Object::IsEnclosed
-  bool invented = false;  ///< same as Object::IsInvented
+  bool filled = false;    ///< same as Object::IsFilled
   bool barred = false;    ///< negation of Object::TakesFingers
 };
 
@@ -111,10 +111,10 @@ class Object {
   [[nodiscard]] bool IsEnclosed(FaceIndex face) const { return faces_[face].enclosed; }
 
   /// Whether a repair added the face to fill a gap of the original surface (repair/repair.h).
-  [[nodiscard]] bool IsInvented(FaceIndex face) const { return faces_[face].invented; }
+  [[nodiscard]] bool IsFilled(FaceIndex face) const { return faces_[face].filled; }
 
   /// Whether planners may place fingers on the face: it is not enclosed, and not a filled surface
-  /// unless Reading::allow_invented is set.
+  /// unless Reading::allow_filled is set.
   [[nodiscard]] bool TakesFingers(FaceIndex face) const { return !faces_[face].barred; }
 
   /// Return whether the normal of a contact patch deviates from the face's normal by more than

@@ -15,7 +15,7 @@ struct PolygonSoup {
   std::vector<std::vector<int>> facets;
   /// For each polygon, whether it fills a gap and is not part of the scanned or drawn surface.
   /// Empty if no polygon is.
-  std::vector<bool> invented = {};
+  std::vector<bool> filled = {};
   /// Name of the unit of length in the file, such as "inches"; empty if the file has none. If set,
   /// vertices are in metres.
   std::string unit = {};

@@ -10,9 +10,9 @@
 #include "planner/object/face_joining.h"
 #include "planner/object/face_tree.h"
 #include "planner/object/facet_triangulation.h"
-#include "planner/object/mend_soup.h"
 #include "planner/object/mesh_survey.h"
 #include "planner/object/patch_normal.h"
+#include "planner/object/repair_soup.h"
 #include "planner/object/self_intersection.h"
 #include "planner/object/solid.h"
 #include "planner/object/surface_parts.h"
@@ -142,11 +142,11 @@ Surface MakeChosenSurface(const WeldedSoup& soup, const std::string& name, const
 
 /// Make a surface; fix defects only if the soup is not a closed manifold. A sound soup stays
 /// bit-identical.
-Surface MakeMendedSurface(WeldedSoup soup, const std::string& name, const Reading& reading) {
+Surface MakeRepairedSurface(WeldedSoup soup, const std::string& name, const Reading& reading) {
   try {
     return MakeChosenSurface(soup, name, reading);
   } catch (const MeshError&) {
-    if (!MendSoup(soup, DiameterOf(soup, name))) throw;
+    if (!RepairSoup(soup, DiameterOf(soup, name))) throw;
   }
   return MakeChosenSurface(soup, name, reading);
 }
@@ -193,12 +193,12 @@ MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Read
   }
 }
 
-/// Mark the faces that a repair added. See PolygonSoup for the parameter `invented`.
-void MarkInvented(const TriangleMesh& mesh, const std::vector<FaceIndex>& face_of_triangle,
-                  const std::vector<bool>& invented, std::vector<Face>& faces) {
-  if (invented.empty()) return;
+/// Mark the faces that a repair added. See PolygonSoup for the parameter `filled`.
+void MarkFilled(const TriangleMesh& mesh, const std::vector<FaceIndex>& face_of_triangle,
+                const std::vector<bool>& filled, std::vector<Face>& faces) {
+  if (filled.empty()) return;
   for (TriangleIndex t{0}; t < std::ssize(mesh.triangles); ++t) {
-    if (invented[mesh.facet_of_triangle[t]]) faces[face_of_triangle[t]].invented = true;
+    if (filled[mesh.facet_of_triangle[t]]) faces[face_of_triangle[t]].filled = true;
   }
 }
 
@@ -219,18 +219,18 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   reading.Begin("checking " + facets);
   WeldedSoup welded = WeldVertices(soup, name);
   reading.Begin("triangulating " + facets);
-  auto [mesh, topology, diameter] = MakeMendedSurface(std::move(welded), name, reading);
+  auto [mesh, topology, diameter] = MakeRepairedSurface(std::move(welded), name, reading);
   reading.Begin("looking for intersections of " + facets);
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
   const SolidShells shells = OrientSolid(mesh, topology, reading.shells, name);
   if (!shells.text.empty()) reading.on_shells(shells.text);
   std::vector<FaceIndex> face_of_triangle =
-      JoinCoplanarFacets(mesh, topology, diameter, soup.invented);
+      JoinCoplanarFacets(mesh, topology, diameter, soup.filled);
   std::vector<Face> faces = MakeFaces(mesh, topology, face_of_triangle, shells.enclosed, name);
-  MarkInvented(mesh, face_of_triangle, soup.invented, faces);
+  MarkFilled(mesh, face_of_triangle, soup.filled, faces);
   for (Face& face : faces) {
-    face.barred = face.enclosed || (face.invented && !reading.allow_invented);
+    face.barred = face.enclosed || (face.filled && !reading.allow_filled);
   }
   topology = {};  // frees memory, which the faces of a large object need
   reading.Begin("preparing " + std::to_string(faces.size()) + " faces");

@@ -35,7 +35,7 @@ bool IsOneOf(std::span<const std::string_view> statements, std::string_view stat
 }
 
 /// Group of polygons that a repair added (repair/repair.h).
-constexpr std::string_view kInventedGroup = "invented";
+constexpr std::string_view kFilledGroup = "invented";
 
 /// Read the first three numbers of a vertex; a weight or a colour may follow.
 Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
@@ -72,9 +72,9 @@ int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, st
                " is out of range (" + std::to_string(count) + " vertices so far)");
 }
 
-void ReadObjFacet(TextScanner& scanner, bool invented, PolygonSoup& soup) {
-  if (invented) soup.invented.resize(soup.facets.size());
-  if (invented || !soup.invented.empty()) soup.invented.push_back(invented);
+void ReadObjFacet(TextScanner& scanner, bool filled, PolygonSoup& soup) {
+  if (filled) soup.filled.resize(soup.facets.size());
+  if (filled || !soup.filled.empty()) soup.filled.push_back(filled);
   std::vector<int>& facet = soup.facets.emplace_back();
   const std::size_t index = soup.facets.size() - 1;
   while (const auto word = scanner.NextOnLine()) {
@@ -100,15 +100,15 @@ void CheckIndices(const PolygonSoup& soup, const std::string& name) {
 PolygonSoup ReadObj(std::string_view text, const std::string& name) {
   PolygonSoup soup;
   TextScanner scanner(TextOf(text, name), name);
-  bool invented = false;
+  bool filled = false;
   std::string curve;  // first statement that defines a curve
   while (const auto statement = scanner.Next()) {
     if (*statement == "v") {
       soup.vertices.push_back(ReadObjVertex(scanner, soup.vertices.size()));
     } else if (*statement == "f") {
-      ReadObjFacet(scanner, invented, soup);
+      ReadObjFacet(scanner, filled, soup);
     } else if (*statement == "g") {
-      invented = scanner.NextOnLine() == kInventedGroup;
+      filled = scanner.NextOnLine() == kFilledGroup;
     } else if (IsOneOf(kCurves, *statement)) {
       if (curve.empty()) curve = *statement;
     } else if (IsOneOf(kOtherSurfaces, *statement)) {

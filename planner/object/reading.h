@@ -28,8 +28,8 @@ struct Reading {
   Deadline deadline;
   /// If set, points with a rough patch take no fingers.
   std::optional<FeltPatch> patch = std::nullopt;
-  bool allow_invented = false;  ///< whether filled surfaces of a repair take fingers
-  bool counts_defects = true;   ///< whether a rejection counts all defects (mesh_survey.h)
+  bool allow_filled = false;   ///< whether filled surfaces of a repair take fingers
+  bool counts_defects = true;  ///< whether a rejection counts all defects (mesh_survey.h)
   std::optional<Shells> shells = std::nullopt;  ///< no effect on a surface that is valid without it
   /// Receives a text on the treatment of several closed shells, if `shells` had an effect.
   std::function<void(const std::string&)> on_shells = [](const std::string&) {};

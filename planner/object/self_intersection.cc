@@ -20,7 +20,7 @@ using CornerPoint = IntersectionKernel::Point_3;
 using Corners = std::array<int, 3>;
 
 /// Number of pairs between two checks of the deadline, about a millisecond.
-constexpr std::size_t kPairsBetweenLooks = 5000;
+constexpr std::size_t kPairsBetweenChecks = 5000;
 
 /// Exception that ends the traversal of boxes, which has no other exit.
 struct Stop {};
@@ -78,7 +78,7 @@ bool VisitCrossings(const TriangleMesh& mesh, std::size_t most_pairs, const Dead
   std::size_t pairs = 0;
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-      if (++pairs % kPairsBetweenLooks == 0) deadline.Check();
+      if (++pairs % kPairsBetweenChecks == 0) deadline.Check();
       if (pairs > most_pairs) throw Stop();
       if (!Meet(mesh, mesh.triangles[a.info()], mesh.triangles[b.info()])) return;
       const auto [first, second] = std::minmax({a.info(), b.info()});

@@ -8,8 +8,8 @@
 #include "planner/base/number.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/check_step.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::plan {
 
@@ -159,11 +159,11 @@ EntryIndex WeakestStep(const std::vector<StepCheck>& steps) {
   return weakest;
 }
 
-std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle) {
+std::string WeakestStepText(const std::vector<StepCheck>& steps, double friction_angle) {
   const EntryIndex weakest = WeakestStep(steps);
   if (!weakest.valid()) return "";
   const auto [needed, available] =
-      FormatRequiredDegrees(Degrees(steps[weakest].required->upper), Degrees(half_angle));
+      FormatRequiredDegrees(Degrees(steps[weakest].required->upper), Degrees(friction_angle));
   return "step " + std::to_string(weakest) + " (" + steps[weakest].kind +
          "), which requires a friction angle of " + needed + " of " + available + " degrees";
 }
@@ -191,18 +191,18 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
     throw InputError("plan: /torsion: cannot be used with a planar object");
   }
   PlanCheck result;
-  result.located = LocatePlan(object, plan);
-  SetTorsion(torsion, result.located);
+  result.projected = ProjectPlan(object, plan);
+  SetTorsion(torsion, result.projected);
   // Separate budgets, so that searches for bounds do not use up the budget for decisions.
   motion::ProofBudget decisions = BudgetOf(plan);
   motion::ProofBudget bounds = BudgetOf(plan);
-  const double half_angle = options.half_angle.value_or(plan.half_angle);
-  RestClosure rests(object.wrench_frame(), half_angle);
+  const double friction_angle = options.friction_angle.value_or(plan.friction_angle);
+  StaticGraspClosure static_grasps(object.wrench_frame(), friction_angle);
   const CheckContext context{
       object,
-      result.located,
-      half_angle,
-      rests,
+      result.projected,
+      friction_angle,
+      static_grasps,
       decisions,
       bounds,
       options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),

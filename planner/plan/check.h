@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/object/object.h"
-#include "planner/plan/locate.h"  // IWYU pragma: export
 #include "planner/plan/plan.h"
+#include "planner/plan/projection.h"  // IWYU pragma: export
 #include "planner/plan/reason.h"
 
 namespace regrasp::plan {
@@ -28,7 +28,7 @@ struct StepCheck {
   /// Smallest friction angle at which every grasp of the step is force closure; nullopt if there is
   /// none. If proofs alone make `force_closure` true, `upper` is at most the friction angle of the
   /// plan.
-  std::optional<grasp::RequiredHalfAngle> required;
+  std::optional<grasp::RequiredFrictionAngle> required;
   /// Number of intervals of a sliding step's path with undecided force closure, each at most 1e-6
   /// of the path between two waypoints. They have no proof, and no instant that is not force
   /// closure. They fail the step (kNotProved) unless CheckOptions::allow_undecided is set.
@@ -45,7 +45,7 @@ struct HandFault {
 
 struct CheckOptions {
   /// Friction angle instead of the plan's, radians.
-  std::optional<double> half_angle = std::nullopt;
+  std::optional<double> friction_angle = std::nullopt;
   /// Torsional friction length of all contacts instead of the plan's, in the object's unit of
   /// length; 0: hard-finger contacts.
   std::optional<double> torsion = std::nullopt;
@@ -74,14 +74,15 @@ struct CheckOptions {
 
 /// Describe WeakestStep, with its required friction angle, for messages of all programs.
 /// Empty if there is none.
-/// @param half_angle  friction angle of the check, radians.
-[[nodiscard]] std::string WeakestStepText(const std::vector<StepCheck>& steps, double half_angle);
+/// @param friction_angle  friction angle of the check, radians.
+[[nodiscard]] std::string WeakestStepText(const std::vector<StepCheck>& steps,
+                                          double friction_angle);
 
 struct PlanCheck {
   std::vector<StepCheck> steps;  ///< entry 0: the initial grasp; then one entry per step
   /// Plan on the surface, for the replay: every point is projected, every normal is that of its
   /// face, and faces are set. Contacts off the surface are unchanged and have face −1.
-  Plan located;
+  Plan projected;
   [[nodiscard]] bool passed() const;
 };
 

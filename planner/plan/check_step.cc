@@ -7,27 +7,27 @@
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/path_force_closure.h"
 #include "planner/object/patch_normal.h"
 #include "planner/object/polyhedron.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/plan_reach.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::plan {
 
-const RestClosure::Found& RestClosure::Of(const FingerGrasp& grasp) {
+const StaticGraspClosure::Found& StaticGraspClosure::Of(const FingerGrasp& grasp) {
   if (AreIdentical(grasp, last_)) return found_;
   last_ = grasp;
   found_ = {};
   if (grasp.empty()) return found_;
   const grasp::Grasp contacts = ContactsOf(grasp);
-  found_.required = grasp::ComputeRequiredHalfAngle(contacts, frame_);
-  found_.holds = grasp::IsForceClosure(contacts, frame_, half_angle_);
+  found_.required = grasp::ComputeRequiredFrictionAngle(contacts, frame_);
+  found_.holds = grasp::IsForceClosure(contacts, frame_, friction_angle_);
   if (found_.holds && found_.required) {
-    found_.required->lower = std::min(found_.required->lower, half_angle_);
-    found_.required->upper = std::min(found_.required->upper, half_angle_);
+    found_.required->lower = std::min(found_.required->lower, friction_angle_);
+    found_.required->upper = std::min(found_.required->upper, friction_angle_);
   }
   return found_;
 }
@@ -104,15 +104,15 @@ void CheckSurface(const CheckContext& context, const FingerGrasp& grasp, int way
   for (const FingerContact& held : grasp) {
     if (held.contact.face.valid()) continue;
     // Located contacts without a face are as given; locating them again finds the reason.
-    const LocatedContact located = LocateContact(context.object, held.contact);
+    const ProjectedContact projected = ProjectContact(context.object, held.contact);
     // The details of a fault require a search of the surface.
-    if (!fault.Wants(located.reason)) continue;
+    if (!fault.Wants(projected.reason)) continue;
     const grasp::Contact nearest = NearestContact(context.object, held.contact);
     const std::string detail =
-        located.reason == Reason::kOffSurface
+        projected.reason == Reason::kOffSurface
             ? " is " + LengthText(context, held.contact.p, nearest.p) + " off the surface"
-            : ": " + located.detail;
-    fault.Add(located.reason, At(waypoint, held.finger) + detail,
+            : ": " + projected.detail;
+    fault.Add(projected.reason, At(waypoint, held.finger) + detail,
               Misplaced(held.finger, waypoint, held.contact, nearest));
   }
 }
@@ -158,17 +158,18 @@ void CheckNamedOnce(const FingerGrasp& grasp, int waypoint, StepFault& fault) {
 }
 
 /// Return bounds on the larger of two required friction angles; nullopt if either is nullopt.
-std::optional<grasp::RequiredHalfAngle> Larger(const std::optional<grasp::RequiredHalfAngle>& a,
-                                               const std::optional<grasp::RequiredHalfAngle>& b) {
+std::optional<grasp::RequiredFrictionAngle> Larger(
+    const std::optional<grasp::RequiredFrictionAngle>& a,
+    const std::optional<grasp::RequiredFrictionAngle>& b) {
   if (!a || !b) return std::nullopt;
-  return grasp::RequiredHalfAngle{std::max(a->lower, b->lower), std::max(a->upper, b->upper)};
+  return grasp::RequiredFrictionAngle{std::max(a->lower, b->lower), std::max(a->upper, b->upper)};
 }
 
 std::string AngleNeeded(const CheckContext& context,
-                        const std::optional<grasp::RequiredHalfAngle>& required) {
+                        const std::optional<grasp::RequiredFrictionAngle>& required) {
   if (!required) return "is not force closure at any friction";
   const auto [needed, available] =
-      FormatRequiredDegrees(Degrees(required->upper), Degrees(context.half_angle));
+      FormatRequiredDegrees(Degrees(required->upper), Degrees(context.friction_angle));
   return "is not force closure: requires a friction angle of " + needed + "°, found " + available +
          "°";
 }
@@ -176,11 +177,11 @@ std::string AngleNeeded(const CheckContext& context,
 /// Return the fault of a grasp without force closure.
 /// @param grasp  grasp that is not force closure, or not proved to be.
 Fault LossOfClosure(const CheckContext& context, const FingerGrasp& grasp,
-                    const std::optional<grasp::RequiredHalfAngle>& required) {
+                    const std::optional<grasp::RequiredFrictionAngle>& required) {
   Fault fault;
   fault.grasp = grasp;
   if (required) fault.required = required->upper;
-  fault.half_angle = context.half_angle;
+  fault.friction_angle = context.friction_angle;
   return fault;
 }
 
@@ -200,8 +201,8 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
     contact.n = object::PatchNormal(*solid, contact.face, contact.p, *radius);
   }
   const object::WrenchFrame frame = context.object.wrench_frame();
-  if (grasp::IsForceClosure(felt, frame, context.half_angle)) return;
-  const auto required = grasp::ComputeRequiredHalfAngle(felt, frame);
+  if (grasp::IsForceClosure(felt, frame, context.friction_angle)) return;
+  const auto required = grasp::ComputeRequiredFrictionAngle(felt, frame);
   check.force_closure = false;
   fault.Add(Reason::kNotForceClosure,
             name + ", with the mean normals within " + FormatLength(*radius * context.plan.scale) +
@@ -213,7 +214,7 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
 void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
                  StepCheck& check, StepFault& fault) {
   if (!context.judge_force_closure) return;
-  const auto& [holds, required] = context.rests.Of(grasp);
+  const auto& [holds, required] = context.static_grasps.Of(grasp);
   check.required = Larger(check.required, required);
   check.force_closure = check.force_closure && holds;
   if (!holds) {
@@ -234,7 +235,7 @@ void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {
 void BeginForceClosure(const CheckContext& context, StepCheck& check) {
   if (!context.judge_force_closure) return;
   check.force_closure = true;
-  check.required = grasp::RequiredHalfAngle{0, 0};
+  check.required = grasp::RequiredFrictionAngle{0, 0};
 }
 
 StepCheck Finish(StepCheck check, const StepFault& fault) {
@@ -333,7 +334,7 @@ std::string SoftNote(const CheckContext& context) {
 }
 
 std::string UnprovedText(const motion::PathForceClosure& path, const std::string& way,
-                         const std::optional<grasp::RequiredHalfAngle>& required) {
+                         const std::optional<grasp::RequiredFrictionAngle>& required) {
   const std::string at = FormatShort(path.at) + " of the path " + way;
   if (path.ended_early) {
     return "force closure is not proved: the search for proofs ended at " + at +
@@ -354,21 +355,22 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
   const motion::GraspMotion motion = MotionBetween(from, step.waypoints[waypoint + 1]);
   const object::WrenchFrame frame = context.object.wrench_frame();
   const motion::PathForceClosure path =
-      motion::DecidePathForceClosure(motion, frame, context.half_angle, context.decisions);
+      motion::DecidePathForceClosure(motion, frame, context.friction_angle, context.decisions);
   std::optional<double> proven;
-  if (path.holds()) proven = context.half_angle;
-  const auto required = motion::ComputePathRequiredHalfAngle(motion, frame, proven, context.bounds);
+  if (path.holds()) proven = context.friction_angle;
+  const auto required =
+      motion::ComputePathRequiredFrictionAngle(motion, frame, proven, context.bounds);
   check.required = Larger(check.required, required);
   check.undecided += path.undecided;
   const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);
   const bool allowed = context.allow_undecided && !path.ended_early;
-  const auto lost_at = [&](const std::optional<grasp::RequiredHalfAngle>& needed) {
+  const auto lost_at = [&](const std::optional<grasp::RequiredFrictionAngle>& needed) {
     Fault loss = LossOfClosure(context, FingersAt(from, motion, path.at), needed);
     loss.waypoint = waypoint;
     return loss;
   };
   if (path.decision == grasp::Decision::kNo) {
-    const auto there = grasp::ComputeRequiredHalfAngle(motion::GraspAt(motion, path.at), frame);
+    const auto there = grasp::ComputeRequiredFrictionAngle(motion::GraspAt(motion, path.at), frame);
     check.force_closure = false;
     const Fault loss = lost_at(there);
     fault.Add(Reason::kNotForceClosure,

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/grasp/contact.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/object/object.h"
 #include "planner/object/wrench_frame.h"
@@ -15,18 +15,18 @@ namespace regrasp::plan {
 
 /// Evaluate force closure of the static grasps of a plan in sequence.
 /// Caches the last grasp, because the last grasp of a step is the first grasp of the next step.
-class RestClosure {
+class StaticGraspClosure {
  public:
   struct Found {
     bool holds = false;
     /// At most the friction angle if the grasp is force closure; nullopt if no friction angle is
     /// enough.
-    std::optional<grasp::RequiredHalfAngle> required;
+    std::optional<grasp::RequiredFrictionAngle> required;
   };
 
-  /// @param half_angle  friction angle in radians.
-  RestClosure(const object::WrenchFrame& frame, double half_angle)
-      : frame_(frame), half_angle_(half_angle) {}
+  /// @param friction_angle  friction angle in radians.
+  StaticGraspClosure(const object::WrenchFrame& frame, double friction_angle)
+      : frame_(frame), friction_angle_(friction_angle) {}
 
   /// Return the force closure of a grasp.
   /// @param grasp  located grasp; without contacts it is not force closure.
@@ -34,7 +34,7 @@ class RestClosure {
 
  private:
   object::WrenchFrame frame_;
-  double half_angle_;
+  double friction_angle_;
   FingerGrasp last_;
   Found found_;  ///< result for the last grasp
 };
@@ -68,12 +68,12 @@ class StepFault {
   Fault fault_;
 };
 
-/// Context of the checks of all steps. The plan is located (LocatePlan).
+/// Context of the checks of all steps. The plan is located (ProjectPlan).
 struct CheckContext {
   const object::Object& object;
   const Plan& plan;
-  double half_angle;  ///< friction angle, radians
-  RestClosure& rests;
+  double friction_angle;  ///< friction angle, radians
+  StaticGraspClosure& static_grasps;
   motion::ProofBudget& decisions;  ///< budget for deciding force closure along all sliding steps
   motion::ProofBudget& bounds;     ///< budget for the required friction angles of all sliding steps
   double finger_radius = 0;        ///< radius in the object's unit of length; 0: points

@@ -24,15 +24,15 @@ std::optional<double> SmallestClaim(const FingerGrasp& placed) {
 
 std::optional<SwitchRegion> MeasureSwitchRegion(const object::Polygon& polygon,
                                                 const FingerGrasp& before, const Switch& step,
-                                                double half_angle) {
+                                                double friction_angle) {
   const FingerGrasp after = GraspAfter(before, step);
   if (before.size() != 2 || after.size() != 2) return std::nullopt;
   const double limit = polygon.diameter();
   SwitchRegion region;
   // The second search stops at the result of the first one.
-  region.half_width =
-      MeasureContactRegion(polygon, ContactsOf(after), half_angle,
-                           MeasureContactRegion(polygon, ContactsOf(before), half_angle, limit));
+  region.half_width = MeasureContactRegion(
+      polygon, ContactsOf(after), friction_angle,
+      MeasureContactRegion(polygon, ContactsOf(before), friction_angle, limit));
   region.claimed = SmallestClaim(step.place);
   region.holds = !region.claimed || *region.claimed <= region.half_width + object::kPointTolerance *
                                                                                polygon.diameter();
@@ -116,9 +116,9 @@ bool IsSqueezing(const grasp::Contact& a, const grasp::Contact& b) {
 class Region {
  public:
   Region(const object::Polygon& polygon, const grasp::Contact& a, const grasp::Contact& b,
-         double half_angle)
+         double friction_angle)
       : frame_(polygon.wrench_frame()),
-        half_angle_(half_angle),
+        friction_angle_(friction_angle),
         squeezing_(IsSqueezing(a, b)),
         first_(polygon, a),
         second_(polygon, b) {}
@@ -135,13 +135,13 @@ class Region {
     return std::ranges::all_of(a.ends, [&](const grasp::Contact& p) {
       return std::ranges::all_of(b.ends, [&](const grasp::Contact& q) {
         return IsSqueezing(p, q) == squeezing_ &&
-               grasp::IsForceClosure({{p, q}}, frame_, half_angle_);
+               grasp::IsForceClosure({{p, q}}, frame_, friction_angle_);
       });
     });
   }
 
   object::WrenchFrame frame_;
-  double half_angle_;
+  double friction_angle_;
   bool squeezing_;
   RingPlace first_, second_;
 };
@@ -161,10 +161,10 @@ void CheckArguments(const object::Polygon& polygon, const grasp::Grasp& grasp, d
 }  // namespace
 
 double MeasureContactRegion(const object::Polygon& polygon, const grasp::Grasp& two_contacts,
-                            double half_angle, double limit) {
+                            double friction_angle, double limit) {
   CheckArguments(polygon, two_contacts, limit);
-  if (!grasp::IsForceClosure(two_contacts, polygon.wrench_frame(), half_angle)) return 0;
-  const Region region(polygon, two_contacts[0], two_contacts[1], half_angle);
+  if (!grasp::IsForceClosure(two_contacts, polygon.wrench_frame(), friction_angle)) return 0;
+  const Region region(polygon, two_contacts[0], two_contacts[1], friction_angle);
   if (region.Holds(limit)) return limit;
   double low = 0, high = limit;
   while (high - low > kRegionAccuracy * polygon.diameter()) {

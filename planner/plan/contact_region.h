@@ -20,13 +20,13 @@ struct SwitchRegion {
 };
 
 /// Measure the regions of a finger switch.
-/// @param before  grasp before the switch, located like the switch (LocatePlan).
-/// @param half_angle  friction angle θ, radians, in (0, π/2).
+/// @param before  grasp before the switch, located like the switch (ProjectPlan).
+/// @param friction_angle  friction angle θ, radians, in (0, π/2).
 /// @returns the regions; nullopt if the grasp before or after does not have two contacts.
 [[nodiscard]] std::optional<SwitchRegion> MeasureSwitchRegion(const object::Polygon& polygon,
                                                               const FingerGrasp& before,
                                                               const Switch& step,
-                                                              double half_angle);
+                                                              double friction_angle);
 
 /// Compute the half-width of the independent contact region of a 2-finger grasp on a polygon.
 /// Both contacts may move independently by up to the half-width h along the boundary, across its
@@ -42,13 +42,13 @@ struct SwitchRegion {
 /// Laws: independent of the order of the contacts and of rigid motion; proportional to scale. Never
 /// decreases with friction. Every grasp of the region is force closure. Beyond it by
 /// kRegionAccuracy · D some grasp is not, or the limit is reached.
-/// @param half_angle  friction angle θ, radians, in (0, π/2).
+/// @param friction_angle  friction angle θ, radians, in (0, π/2).
 /// @param limit       upper limit of the search, in the polygon's unit of length.
 /// @returns a lower bound within kRegionAccuracy · D; 0 if the grasp is not force closure.
 /// @throws std::invalid_argument  if there are not two contacts, a contact has no edge, or the
 ///     limit is negative or not finite; as IsForceClosure.
 [[nodiscard]] double MeasureContactRegion(const object::Polygon& polygon,
-                                          const grasp::Grasp& two_contacts, double half_angle,
+                                          const grasp::Grasp& two_contacts, double friction_angle,
                                           double limit);
 
 /// Accuracy of half-widths over the diameter: a tenth of the distance within which two points count

@@ -2,7 +2,7 @@
 
 #include "planner/base/file.h"
 #include "planner/plan/json_reader.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
@@ -28,16 +28,16 @@ grasp::Contact ReadOnObject(const JsonReader& json, const object::Object& object
   if (!json.Has("normal")) {
     return ContactOfPoint(json, object, json.Member("point").Vector(object.dimension()));
   }
-  const LocatedContact located = LocateContact(object, ReadContact(json, object.dimension()));
-  if (located.reason == Reason::kOffSurface) {
-    json.Member("point").Fail(OffSurfaceText(object, located.contact.p));
+  const ProjectedContact projected = ProjectContact(object, ReadContact(json, object.dimension()));
+  if (projected.reason == Reason::kOffSurface) {
+    json.Member("point").Fail(OffSurfaceText(object, projected.contact.p));
   }
-  if (located.reason != Reason::kNone) {
-    const grasp::Contact nearest = NearestContact(object, located.contact);
-    json.Member("normal").Fail(located.detail + ", expected " +
+  if (projected.reason != Reason::kNone) {
+    const grasp::Contact nearest = NearestContact(object, projected.contact);
+    json.Member("normal").Fail(projected.detail + ", expected " +
                                VectorText(nearest.n, object.dimension()));
   }
-  return located.contact;
+  return projected.contact;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ struct Found {
 
   void Add(const object::Object& object, const FingerGrasp& grasp, const std::string& where) {
     for (const FingerContact& contact : grasp) {
-      if (!contact.contact.face.valid() || !object.IsInvented(contact.contact.face)) continue;
+      if (!contact.contact.face.valid() || !object.IsFilled(contact.contact.face)) continue;
       if (count++ == 0) first = "finger " + std::to_string(contact.finger) + " in " + where;
     }
   }
@@ -84,14 +84,14 @@ struct Found {
 
 }  // namespace
 
-std::string InventedContactsWarning(const object::Object& object, const Plan& located) {
+std::string FilledContactsWarning(const object::Object& object, const Plan& projected) {
   Found found;
-  found.Add(object, located.initial, "the initial grasp");
-  for (std::size_t i = 0; i < located.steps.size(); ++i) {
+  found.Add(object, projected.initial, "the initial grasp");
+  for (std::size_t i = 0; i < projected.steps.size(); ++i) {
     const std::string where = "step " + std::to_string(i + 1);
-    if (const auto* step = std::get_if<Switch>(&located.steps[i])) {
+    if (const auto* step = std::get_if<Switch>(&projected.steps[i])) {
       found.Add(object, step->place, where);
-    } else if (const auto* align = std::get_if<Align>(&located.steps[i])) {
+    } else if (const auto* align = std::get_if<Align>(&projected.steps[i])) {
       found.Add(object, align->waypoints.back(), where);
     }
   }

@@ -25,10 +25,10 @@ namespace regrasp::plan {
 [[nodiscard]] std::string FormatGrasp(const grasp::Grasp& grasp, int dimension);
 
 /// Return a warning about contacts on surface that a repair filled; empty if there are none.
-/// It names the first such contact and the number of contacts (Object::IsInvented). Both ends of
+/// It names the first such contact and the number of contacts (Object::IsFilled). Both ends of
 /// sliding steps count, the path between them does not.
-/// @param located  plan from LocatePlan, with faces set.
-[[nodiscard]] std::string InventedContactsWarning(const object::Object& object,
-                                                  const Plan& located);
+/// @param located  plan from ProjectPlan, with faces set.
+[[nodiscard]] std::string FilledContactsWarning(const object::Object& object,
+                                                const Plan& projected);
 
 }  // namespace regrasp::plan

@@ -5,7 +5,7 @@
 #include <boost/graph/max_cardinality_matching.hpp>
 #include <vector>
 
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/contact_motion.h"
 
 namespace regrasp::plan {

@@ -108,7 +108,7 @@ struct RoadmapNote {
   /// Largest angle between a contact's normal and that of its patch (Plan::patch_radius), radians.
   /// The contacts were clustered with a friction angle that is smaller by this angle.
   std::optional<double> roughness = std::nullopt;
-  bool allow_invented = false;  ///< whether contact points may be on filled surface
+  bool allow_filled = false;  ///< whether contact points may be on filled surface
 };
 
 /// Regrasp plan: the contents of a plan file (docs/formats.md), angles in radians.
@@ -121,14 +121,14 @@ struct Plan {
   std::optional<object::Shells> shells = std::nullopt;
   double scale = 1;  ///< metres per unit of the object's file
   int dimension = 3;
-  double half_angle = 0;  ///< friction angle, radians
-  int fingers = 0;        ///< number of fingers of the hand
+  double friction_angle = 0;  ///< friction angle, radians
+  int fingers = 0;            ///< number of fingers of the hand
   std::string planner;
   /// Radius of the fingers in planning, in the object's unit of length; without it fingers are
   /// points.
   std::optional<double> finger_radius = std::nullopt;
   /// Torsional friction length of all contacts (grasp::Contact::torsion), in the object's unit of
-  /// length; 0: hard-finger contacts. LocatePlan sets the torsion of the contacts themselves.
+  /// length; 0: hard-finger contacts. ProjectPlan sets the torsion of the contacts themselves.
   double torsion = 0;
   /// Radius of the contact patches of fingertips (object/patch_normal.h), in the object's unit of
   /// length. If set, static grasps are force closure with the patches' normals too.

@@ -144,7 +144,7 @@ void ReadObjectPart(const JsonReader& json, Plan& plan) {
   if (json.Has("shells")) plan.shells = ReadShells(json.Member("shells"));
 }
 
-double ReadHalfAngle(const JsonReader& json) {
+double ReadFrictionAngle(const JsonReader& json) {
   const double degrees = json.Number();
   if (!(degrees > 0 && degrees < 90)) {
     json.Fail("must be between 0 and 90, found " + json.Quoted());
@@ -197,9 +197,9 @@ RoadmapNote ReadRoadmapNote(const JsonReader& json) {
   note.seed = json.Member("seed").Unsigned();
   note.start = json.Member("start").String();
   note.goal = json.Member("goal").String();
-  if (json.Has("roughness_deg")) note.roughness = ReadHalfAngle(json.Member("roughness_deg"));
+  if (json.Has("roughness_deg")) note.roughness = ReadFrictionAngle(json.Member("roughness_deg"));
   if (json.Has("invented")) {
-    note.allow_invented = json.Member("invented").OneOf({"allowed"}) == "allowed";
+    note.allow_filled = json.Member("invented").OneOf({"allowed"}) == "allowed";
   }
   return note;
 }
@@ -211,7 +211,7 @@ Json RoadmapNoteJson(const RoadmapNote& note) {
                {"start", note.start},
                {"goal", note.goal}};
   if (note.roughness) json["roughness_deg"] = WrittenDegrees(*note.roughness);
-  if (note.allow_invented) json["invented"] = "allowed";
+  if (note.allow_filled) json["invented"] = "allowed";
   return json;
 }
 
@@ -265,7 +265,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   root.ExpectFormat("regrasp-plan");
   Plan plan;
   ReadObjectPart(root.Member("object"), plan);
-  plan.half_angle = ReadHalfAngle(root.Member("friction").Member("half_angle_deg"));
+  plan.friction_angle = ReadFrictionAngle(root.Member("friction").Member("half_angle_deg"));
   plan.fingers = root.Member("fingers").Integer(1, kMostFingers);
   plan.planner = root.Member("planner").String();
   if (root.Has("finger_radius")) plan.finger_radius = ReadRadius(root.Member("finger_radius"));
@@ -301,7 +301,7 @@ std::string FormatPlan(const Plan& plan) {
   if (plan.shells) {
     json["object"]["shells"] = *plan.shells == object::Shells::kUnion ? kUnion : kLargest;
   }
-  json["friction"]["half_angle_deg"] = WrittenDegrees(plan.half_angle);
+  json["friction"]["half_angle_deg"] = WrittenDegrees(plan.friction_angle);
   json["fingers"] = plan.fingers;
   json["planner"] = plan.planner;
   if (plan.finger_radius) json["finger_radius"] = *plan.finger_radius;

@@ -46,7 +46,7 @@ enum class Reason {
 [[nodiscard]] std::string_view ReasonName(Reason reason);
 
 /// Disturbance force on the object, in the replay's world frame.
-struct FaultPush {
+struct FaultDisturbance {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_Nm = Eigen::Vector3d::Zero();
   std::string name = {};  ///< text for messages: size and direction
@@ -94,8 +94,9 @@ struct Fault {
   /// Required and actual friction angle for a loss of force closure, radians. `required` is empty
   /// if no angle below 90° is enough.
   std::optional<double> required = std::nullopt;
-  std::optional<double> half_angle = std::nullopt;
-  std::optional<FaultPush> push = std::nullopt;  ///< disturbance force under which a replay failed
+  std::optional<double> friction_angle = std::nullopt;
+  std::optional<FaultDisturbance> disturbance =
+      std::nullopt;  ///< disturbance force under which a replay failed
   /// Object pose at the start of a step that fails in the replay.
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
   std::optional<HandFaultPlace> hand = std::nullopt;  ///< only in a plan for a hand

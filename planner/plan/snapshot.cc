@@ -84,15 +84,15 @@ std::vector<FingerState> DuringEntry(const Plan& plan, int entry, const Fault& f
 
 }  // namespace
 
-Snapshot MakePlannedSnapshot(const Plan& located, int entry, const Fault& fault,
+Snapshot MakePlannedSnapshot(const Plan& projected, int entry, const Fault& fault,
                              double fingertip_radius_m) {
   Snapshot snapshot;
   snapshot.fingertip_radius_m = fingertip_radius_m;
-  snapshot.fingers = DuringEntry(located, entry, fault);
+  snapshot.fingers = DuringEntry(projected, entry, fault);
   for (FingerState& state : snapshot.fingers) {
-    state.contact_W *= located.scale;
+    state.contact_W *= projected.scale;
     state.tip_W = state.contact_W - fingertip_radius_m * state.normal_W;
-    for (Eigen::Vector3d& p : state.path_W) p *= located.scale;
+    for (Eigen::Vector3d& p : state.path_W) p *= projected.scale;
   }
   return snapshot;
 }

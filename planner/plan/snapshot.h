@@ -48,10 +48,10 @@ struct Snapshot {
 ///
 /// Contacts may be anywhere, and fingers outside the hand. At most kMostDrawnFingers are included,
 /// those at fault first, because a malicious file may have any number.
-/// @param located             plan on the object as far as it fits (PlanCheck::located).
+/// @param located             plan on the object as far as it fits (PlanCheck::projected).
 /// @param entry               0 the initial grasp, k the k-th step.
 /// @param fingertip_radius_m  radius in metres.
-[[nodiscard]] Snapshot MakePlannedSnapshot(const Plan& located, int entry, const Fault& fault,
+[[nodiscard]] Snapshot MakePlannedSnapshot(const Plan& projected, int entry, const Fault& fault,
                                            double fingertip_radius_m);
 
 inline constexpr int kMostDrawnFingers = 16;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "planner/base/number.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::plan {
 

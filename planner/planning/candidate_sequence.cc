@@ -11,7 +11,7 @@
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::planning {
@@ -87,12 +87,12 @@ double SmallestMargin(const std::vector<StaticGrasp>& grasps,
   for (const StaticGrasp& candidate : grasps)
     by_margin.emplace_back(evaluator.Margin(candidate.grasp).value_or(-1), &candidate);
   std::ranges::sort(by_margin);
-  double smallest = evaluator.half_angle();
+  double smallest = evaluator.friction_angle();
   for (const auto& [margin, candidate] : by_margin) {
     if (margin >= std::max(smallest, 0.0)) break;
     const grasp::SoftContacts felt(candidate->grasp, evaluator.torsion());
-    const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator.frame());
-    smallest = std::min(smallest, required ? evaluator.half_angle() - required->upper : 0);
+    const auto required = grasp::ComputeRequiredFrictionAngle(felt.view(), evaluator.frame());
+    smallest = std::min(smallest, required ? evaluator.friction_angle() - required->upper : 0);
   }
   return smallest;
 }
@@ -144,7 +144,7 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   }
   plan::Plan& plan = result.plan.emplace();
   plan.dimension = request.object->dimension();
-  plan.half_angle = request.criteria.half_angle;
+  plan.friction_angle = request.criteria.friction_angle;
   plan.fingers = request.hand.fingers;
   plan.torsion = request.hand.torsion;
   plan.planner = planner;

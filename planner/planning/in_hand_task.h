@@ -42,7 +42,8 @@ struct ExecutionResult {
   bool is_held = false;   ///< whether the start grasp is held before the first step
   int steps = 0;          ///< number of steps before the first failure, or all
   bool is_whole = false;  ///< whether the last static grasp of the plan is reached
-  double spare = 0;       ///< if is_whole: smallest tolerance margin, as a fraction of its limit
+  double tolerance_margin =
+      0;  ///< if is_whole: smallest tolerance margin, as a fraction of its limit
   bool is_cut_short = false;  ///< whether the deadline passed before a step failed
   plan::Reason reason = {};   ///< reason of the failed step; the first reason (none) if none failed
   std::string detail = {};    ///< description of the failure: finger or link, and by how much

@@ -12,7 +12,7 @@
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/plan_reach.h"
@@ -105,16 +105,16 @@ class GraspResolver {
 
   template <typename Refuse>
   void CheckForceClosure(const grasp::Grasp& grasp, const Refuse& refuse) const {
-    const double half_angle = request_.criteria.half_angle;
+    const double friction_angle = request_.criteria.friction_angle;
     const grasp::SoftContacts felt(grasp, evaluator_.torsion());
-    if (grasp::IsForceClosure(felt.view(), evaluator_.frame(), half_angle)) return;
-    const auto required = grasp::ComputeRequiredHalfAngle(felt.view(), evaluator_.frame());
+    if (grasp::IsForceClosure(felt.view(), evaluator_.frame(), friction_angle)) return;
+    const auto required = grasp::ComputeRequiredFrictionAngle(felt.view(), evaluator_.frame());
     if (!required) {
       refuse("not force closure at any friction angle below 90°, found " +
-             FormatShort(Degrees(half_angle)) + "°");
+             FormatShort(Degrees(friction_angle)) + "°");
     }
     const auto [needed, given] =
-        FormatRequiredDegrees(Degrees(required->upper), Degrees(half_angle));
+        FormatRequiredDegrees(Degrees(required->upper), Degrees(friction_angle));
     refuse("not force closure: requires a friction angle of " + needed + "°, found " + given + "°");
   }
 

@@ -193,7 +193,7 @@ class MeetingFinder {
     }
     CGAL::box_self_intersection_d(
         boxes.begin(), boxes.end(), [&](const Box& one, const Box& other) {
-          Look(std::min(one.info(), other.info()), std::max(one.info(), other.info()));
+          Examine(std::min(one.info(), other.info()), std::max(one.info(), other.info()));
         });
     return std::move(meetings_);
   }
@@ -222,7 +222,7 @@ class MeetingFinder {
     return std::ranges::all_of(sides, [&](int s) { return s != 0 && s == sides[0]; });
   }
 
-  void Look(int one, int other) {
+  void Examine(int one, int other) {
     const std::vector<int> sides = SidesOf(one, other);
     if (sides.empty()) return meetings_.coplanar.Unite(one, other);  // identical corners
     if (OnOneSide(sides) || OnOneSide(SidesOf(other, one))) return;

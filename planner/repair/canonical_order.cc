@@ -43,7 +43,7 @@ PolygonSoup InCanonicalOrder(const PolygonSoup& soup) {
       facets, {}, [&](int f) -> const auto& { return renumbered[f]; });
   for (const int f : facets) {
     ordered.facets.push_back(renumbered[f]);
-    if (!soup.invented.empty()) ordered.invented.push_back(soup.invented[f]);
+    if (!soup.filled.empty()) ordered.filled.push_back(soup.filled[f]);
   }
   return ordered;
 }

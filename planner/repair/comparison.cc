@@ -43,7 +43,7 @@ constexpr double kBoundAccuracy = 1e-3;
 constexpr int kMostPieces = 400'000;
 
 /// Largest radius, over the diameter, of the triangle pieces tested for filled surface.
-constexpr double kInventedStep = 0.01;
+constexpr double kFilledStep = 0.01;
 
 using Triangle = std::array<Vector3d, 3>;
 
@@ -140,23 +140,23 @@ double BoundDistance(const PolygonSoup& from, const SurfaceDistance& to, double 
   };
   std::priority_queue<Piece> pieces;
   double largest = least;
-  int looked = 0;
+  int examined = 0;
   std::optional<SurfaceDistance::Closest> near;
-  const auto look = [&](const Triangle& t) {
-    ++looked;
+  const auto examine = [&](const Triangle& t) {
+    ++examined;
     const Vector3d centre = Centre(t);
     near = to.FindClosest(centre, near);
     largest = std::max(largest, (near->point - centre).norm());
     const double bound = FarthestOf(t, to, *near);
     if (bound > largest + accuracy) pieces.push({bound, t, *near});
   };
-  for (std::size_t f = 0; f < from.facets.size(); ++f) look(TriangleOf(from, f));
+  for (std::size_t f = 0; f < from.facets.size(); ++f) examine(TriangleOf(from, f));
   while (!pieces.empty() && pieces.top().bound > largest + accuracy) {
-    if (looked > kMostPieces) return pieces.top().bound;
+    if (examined > kMostPieces) return pieces.top().bound;
     const Triangle t = pieces.top().triangle;
     near = pieces.top().closest;
     pieces.pop();
-    for (const Triangle& half : Halves(t)) look(half);
+    for (const Triangle& half : Halves(t)) examine(half);
   }
   return largest + accuracy;
 }
@@ -231,19 +231,19 @@ bool ReachesBeyond(const Triangle& t, const SurfaceDistance& surface, double dis
   });
 }
 
-void FindInvented(const PolygonSoup& solid, const SurfaceDistance& to_original, double diameter,
-                  Comparison& comparison) {
-  double area = 0, invented = 0;
+void FindFilled(const PolygonSoup& solid, const SurfaceDistance& to_original, double diameter,
+                Comparison& comparison) {
+  double area = 0, filled = 0;
   std::optional<SurfaceDistance::Closest> near;
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
     const Triangle t = TriangleOf(solid, f);
-    const bool is_invented =
-        ReachesBeyond(t, to_original, kInventedDistance * diameter, kInventedStep * diameter, near);
-    comparison.invented.push_back(is_invented);
+    const bool is_filled =
+        ReachesBeyond(t, to_original, kFilledDistance * diameter, kFilledStep * diameter, near);
+    comparison.filled.push_back(is_filled);
     area += AreaVector(t).norm();
-    if (is_invented) invented += AreaVector(t).norm();
+    if (is_filled) filled += AreaVector(t).norm();
   }
-  comparison.invented_share = invented / area;
+  comparison.filled_share = filled / area;
 }
 
 double ThinShare(const std::vector<Sample>& samples, const SurfaceDistance& solid,
@@ -293,7 +293,7 @@ Comparison Compare(const PolygonSoup& original, const PolygonSoup& solid, double
       Summarize(solid, new_samples, Distances(new_samples, to_original), to_original, diameter);
   CompareSeen(solid, DrawSamples(original, kSeenSamples), to_original, to_solid, kOff * diameter,
               comparison);
-  FindInvented(solid, to_original, diameter, comparison);
+  FindFilled(solid, to_original, diameter, comparison);
   comparison.thin_share = ThinShare(DrawSamples(solid, kSeenSamples), to_solid, diameter);
   return comparison;
 }

@@ -27,15 +27,15 @@ struct Comparison {
   double normal_mean = 0;
   double normal_most = 0;  ///< 95th percentile of these angles
   /// Marks of the solid's filled triangles.
-  /// A triangle is filled if some point of it is farther than kInventedDistance from the original.
-  std::vector<bool> invented;
-  double invented_share = 0;  ///< share of the solid's area
-  double thin_share = 0;      ///< share of the solid's area with a wall thinner than kThinWall
+  /// A triangle is filled if some point of it is farther than kFilledDistance from the original.
+  std::vector<bool> filled;
+  double filled_share = 0;  ///< share of the solid's area
+  double thin_share = 0;    ///< share of the solid's area with a wall thinner than kThinWall
 };
 
 /// Distance from the original, over the diameter, beyond which a triangle is filled surface.
 /// A fingertip does not feel a filled gap that deviates by less.
-inline constexpr double kInventedDistance = 0.005;
+inline constexpr double kFilledDistance = 0.005;
 
 /// Wall thickness over the diameter below which a wall is a sheet wrapped on both sides.
 inline constexpr double kThinWall = 0.004;

@@ -56,10 +56,10 @@ Judgement JudgeShape(const Comparison& comparison, const Original& original,
             deviation};
   }
   if (options.thickness) return {};
-  if (comparison.invented_share > kMostInvented) {
+  if (comparison.filled_share > kMostFilled) {
     return {Shortfall::kNotAllThere,
-            "surface incomplete: " + PercentOf(comparison.invented_share) +
-                " of the solid would be filled in, limit " + PercentOf(kMostInvented) +
+            "surface incomplete: " + PercentOf(comparison.filled_share) +
+                " of the solid would be filled in, limit " + PercentOf(kMostFilled) +
                 "; help: scan the other sides too, or give an open sheet a wall "
                 "(--repair wall=T)"};
   }

@@ -106,8 +106,8 @@ double ScatterAt(const Search::Tree& tree, const CloudPoint& p) {
 /// Return the median scatter.
 double ScatterOf(const Search::Tree& tree, const std::vector<CloudPoint>& points) {
   /// Largest number of evaluated points; taken at equal steps from the sorted points.
-  constexpr std::size_t kLooks = 10000;
-  const std::size_t step = 1 + points.size() / kLooks;
+  constexpr std::size_t kSamples = 10000;
+  const std::size_t step = 1 + points.size() / kSamples;
   std::vector<double> scatters;
   for (std::size_t i = 0; i < points.size(); i += step) {
     scatters.push_back(ScatterAt(tree, points[i]));

@@ -6,8 +6,8 @@
 
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/repair/invented_marks.h"
-#include "planner/repair/ladder.h"
+#include "planner/repair/filled_marks.h"
+#include "planner/repair/repair_pipeline.h"
 
 namespace regrasp::repair {
 
@@ -67,15 +67,15 @@ Repaired Repair(const PolygonSoup& soup, const std::string& name,
                 const object::RepairOptions& asked, const object::Reading& reading) {
   object::RepairOptions options = asked;
   if (reading.shells == object::Shells::kLargest) options.part = options.part.value_or(1);
-  Climbed climbed = Climb(soup, name, options, reading);
-  if (!climbed.solid) throw NotRepaired(name, std::move(climbed.attempt));
-  Repaired repaired{std::move(climbed.attempt), *std::move(climbed.solid), 0,
-                    std::move(climbed.comparison)};
-  if (repaired.solid.invented.empty()) {
+  PipelineResult pipeline_result = RunRepairPipeline(soup, name, options, reading);
+  if (!pipeline_result.solid) throw NotRepaired(name, std::move(pipeline_result.attempt));
+  Repaired repaired{std::move(pipeline_result.attempt), *std::move(pipeline_result.solid), 0,
+                    std::move(pipeline_result.comparison)};
+  if (repaired.solid.filled.empty()) {
     // Both sides of a sheet are off its original, so the comparison would mark all of it.
-    MarkInvented(soup, options.thickness ? Comparison() : repaired.comparison, repaired.solid);
+    MarkFilled(soup, options.thickness ? Comparison() : repaired.comparison, repaired.solid);
   }
-  InventedLast(repaired.solid);
+  FilledLast(repaired.solid);
   TurnOutwards(repaired.solid);
   object::Reading silent;
   silent.deadline = reading.deadline;
@@ -122,11 +122,11 @@ std::string FormatSolid(const object::PolygonSoup& solid) {
     text +=
         "v " + FormatDouble(v.x()) + " " + FormatDouble(v.y()) + " " + FormatDouble(v.z()) + "\n";
   }
-  for (const bool invented : {false, true}) {
+  for (const bool filled : {false, true}) {
     bool named = false;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-      if ((!solid.invented.empty() && solid.invented[f]) != invented) continue;
-      if (!named) text += invented ? "g invented\n" : "g original\n";
+      if ((!solid.filled.empty() && solid.filled[f]) != filled) continue;
+      if (!named) text += filled ? "g invented\n" : "g original\n";
       named = true;
       text += "f";
       for (const int v : solid.facets[f]) text += " " + std::to_string(v + 1);
@@ -202,7 +202,7 @@ Json RepairReport(const Repaired& repaired, const object::SoupFile& file,
   report["solid_to_original"] = SummaryJson(c.to_original, repaired.diameter);
   report["normals"] = {{"mean_deg", c.normal_mean * kDegrees},
                        {"p95_deg", c.normal_most * kDegrees}};
-  report["invented_share"] = InventedShare(repaired.solid);
+  report["invented_share"] = FilledShare(repaired.solid);
   return report;
 }
 
@@ -230,8 +230,7 @@ std::string RepairText(const Repaired& repaired) {
   }
   const double d = repaired.diameter;
   return text + "); deviation " + Percent(repaired.comparison.seen_most / d) +
-         " of the diameter, " + Percent(InventedShare(repaired.solid)) +
-         " of the surface filled in";
+         " of the diameter, " + Percent(FilledShare(repaired.solid)) + " of the surface filled in";
 }
 
 }  // namespace regrasp::repair

@@ -60,7 +60,7 @@ class NotRepaired : public InputError {
                               const object::Reading& reading = {});
 
 /// Largest accepted share of filled surface. Beyond it too little of the object was scanned.
-inline constexpr double kMostInvented = 0.25;
+inline constexpr double kMostFilled = 0.25;
 
 /// Share of thin wall beyond which the solid is an open surface wrapped on both sides.
 inline constexpr double kMostThin = 0.1;

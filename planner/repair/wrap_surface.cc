@@ -26,7 +26,7 @@ using Point = Kernel::Point_3;
 constexpr double kCoarser = 4;
 
 /// Largest number of rounds that move vertices of bad triangles back to the wrap.
-constexpr int kLooks = 20;
+constexpr int kMaxPasses = 20;
 
 std::vector<Point> PointsOf(const object::PolygonSoup& soup) {
   std::vector<Point> points;
@@ -107,17 +107,17 @@ int DrawBack(Mesh& mesh, const SurfaceDistance& surface, double diameter) {
   std::set<Mesh::Vertex_index> outside;
   // A vertex that returns to the wrap affects only its neighbourhood. All triangles are checked
   // once no bad one remains.
-  Faces looked = all;
-  for (int look = 0; look < kLooks; ++look) {
-    const Faces bad = FindBad(looked, mesh, normals, diameter);
-    if (bad.empty() && looked.size() == all.size()) return static_cast<int>(outside.size());
+  Faces examined = all;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const Faces bad = FindBad(examined, mesh, normals, diameter);
+    if (bad.empty() && examined.size() == all.size()) return static_cast<int>(outside.size());
     for (const auto f : bad) {
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
         mesh.point(v) = wrapped[v];
         outside.insert(v);
       }
     }
-    looked = bad.empty() ? all : Widened(bad, mesh);
+    examined = bad.empty() ? all : Widened(bad, mesh);
   }
   for (const auto v : mesh.vertices()) mesh.point(v) = wrapped[v];
   return static_cast<int>(wrapped.size());

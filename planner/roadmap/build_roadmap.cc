@@ -78,7 +78,7 @@ Roadmap BuildRoadmap(const planning::PlanRequest& request,
   std::vector<grasp::Contact> points;
   JoinContacts(points, joined, object::kPointTolerance * diameter);
   JoinContacts(points, contacts, object::kPointTolerance * diameter);
-  return Roadmap(std::move(points), request.object->wrench_frame(), request.criteria.half_angle,
+  return Roadmap(std::move(points), request.object->wrench_frame(), request.criteria.friction_angle,
                  criteria::kSamePoint * diameter, request.hand.fingertip_radius, request.deadline,
                  request.progress);
 }
@@ -86,7 +86,7 @@ Roadmap BuildRoadmap(const planning::PlanRequest& request,
 ClusteredRoadmap BuildClusteredRoadmap(const planning::PlanRequest& request) {
   const RoadmapSize size = SizeOf(request);
   CheckSize(size);
-  return ClusteredRoadmap(SolidOf(request), {.half_angle = request.criteria.half_angle,
+  return ClusteredRoadmap(SolidOf(request), {.friction_angle = request.criteria.friction_angle,
                                              .contacts = size.contacts,
                                              .clusters = size.clusters,
                                              .seed = request.seed,

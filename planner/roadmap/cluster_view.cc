@@ -27,8 +27,8 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& pl
   check("contact points", note.contacts, kFewestClusters, kMaxClusteredContacts);
   check("clusters", note.clusters, kFewestClusters, kMostClusters);
   ClusteredRoadmapOptions options;
-  options.half_angle = plan.half_angle - note.roughness.value_or(0);
-  if (options.half_angle <= 0) {
+  options.friction_angle = plan.friction_angle - note.roughness.value_or(0);
+  if (options.friction_angle <= 0) {
     throw InputError("plan: the roughness of the roadmap must be smaller than the friction angle");
   }
   options.contacts = note.contacts;

@@ -18,7 +18,7 @@ Roadmap BuildRepresentativeRoadmap(const object::Polyhedron& solid, const Contac
   for (const int contact : clusters.representatives()) {
     representatives.push_back(clusters.contacts()[contact]);
   }
-  return Roadmap(std::move(representatives), solid.wrench_frame(), options.half_angle,
+  return Roadmap(std::move(representatives), solid.wrench_frame(), options.friction_angle,
                  criteria::kSamePoint * solid.diameter(), options.finger_radius, options.deadline,
                  options.progress);
 }
@@ -45,13 +45,13 @@ ContactClusters ClusterContacts(const object::Polyhedron& solid,
            !criteria::CanReach(solid, contact, options.finger_radius);
   });
   const int clusters = std::min(options.clusters, static_cast<int>(contacts.size()) - 1);
-  return ContactClusters(std::move(contacts), solid.wrench_frame(), options.half_angle, clusters,
-                         options.seed, options.deadline, options.progress);
+  return ContactClusters(std::move(contacts), solid.wrench_frame(), options.friction_angle,
+                         clusters, options.seed, options.deadline, options.progress);
 }
 
 ClusteredRoadmap::ClusteredRoadmap(const object::Polyhedron& solid,
                                    const ClusteredRoadmapOptions& options)
-    : half_angle(options.half_angle),
+    : friction_angle(options.friction_angle),
       frame(solid.wrench_frame()),
       clusters(ClusterContacts(solid, options)),
       roadmap(BuildRepresentativeRoadmap(solid, clusters, options)),

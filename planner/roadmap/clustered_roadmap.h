@@ -19,9 +19,9 @@ inline constexpr int kFewestClusters = 4;
 inline constexpr int kMostClusters = 200;
 
 struct ClusteredRoadmapOptions {
-  double half_angle = 0;  ///< friction angle, radians in (0, π/2)
-  int contacts = 1000;    ///< largest number of contact points
-  int clusters = 50;      ///< kFewestClusters … kMostClusters
+  double friction_angle = 0;  ///< friction angle, radians in (0, π/2)
+  int contacts = 1000;        ///< largest number of contact points
+  int clusters = 50;          ///< kFewestClusters … kMostClusters
   std::uint64_t seed = 0;
   /// Callback for progress messages.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
@@ -45,7 +45,7 @@ struct ClusteredRoadmap {
   /// @throws std::invalid_argument  if an option is out of range.
   ClusteredRoadmap(const object::Polyhedron& solid, const ClusteredRoadmapOptions& options);
 
-  double half_angle;
+  double friction_angle;
   object::WrenchFrame frame;
   ContactClusters clusters;
   Roadmap roadmap;  ///< its points are the representatives in cluster order

@@ -147,15 +147,16 @@ bool LeadsAlong(const Eigen::Vector3d& vector, const grasp::Contact& contact, do
 }  // namespace
 
 WrenchPyramid PyramidOf(const grasp::Contact& contact, const object::WrenchFrame& frame,
-                        double half_angle, const Eigen::Vector3d& towards) {
+                        double friction_angle, const Eigen::Vector3d& towards) {
   const Eigen::Vector3d u = (towards - contact.n.dot(towards) * contact.n).normalized();
   const Eigen::Vector3d v = contact.n.cross(u);
   const Eigen::Vector3d arm = (contact.p - frame.origin) / frame.radius;
   WrenchPyramid pyramid;
   for (int side = 0; side < kPyramidSides; ++side) {
     const double turn = 2 * std::numbers::pi * side / kPyramidSides;
-    const Eigen::Vector3d force = std::cos(half_angle) * contact.n +
-                                  std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v);
+    const Eigen::Vector3d force =
+        std::cos(friction_angle) * contact.n +
+        std::sin(friction_angle) * (std::cos(turn) * u + std::sin(turn) * v);
     pyramid.col(side) << force, arm.cross(force);
     pyramid.col(side).normalize();
   }
@@ -163,13 +164,13 @@ WrenchPyramid PyramidOf(const grasp::Contact& contact, const object::WrenchFrame
 }
 
 WrenchPyramid PyramidOf(const grasp::Contact& contact, const object::WrenchFrame& frame,
-                        double half_angle, std::span<const grasp::Contact> others) {
+                        double friction_angle, std::span<const grasp::Contact> others) {
   Eigen::Vector3d towards = contact.p - frame.origin;
   for (std::size_t i = 0; i < others.size() && !LeadsAlong(towards, contact, frame.radius); ++i) {
     towards = others[i].p - contact.p;
   }
   if (!LeadsAlong(towards, contact, frame.radius)) towards = contact.n.unitOrthogonal();
-  return PyramidOf(contact, frame, half_angle, towards);
+  return PyramidOf(contact, frame, friction_angle, towards);
 }
 
 double WrenchDistance(const WrenchPyramid& a, const WrenchPyramid& b) {
@@ -269,14 +270,15 @@ constexpr int kRestarts = 5;
 }  // namespace
 
 ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
-                                 const object::WrenchFrame& frame, double half_angle, int clusters,
-                                 std::uint64_t seed, const Deadline& deadline, const Tell& tell)
-    : frame_(frame), half_angle_(half_angle), contacts_(std::move(contacts)) {
+                                 const object::WrenchFrame& frame, double friction_angle,
+                                 int clusters, std::uint64_t seed, const Deadline& deadline,
+                                 const Tell& tell)
+    : frame_(frame), friction_angle_(friction_angle), contacts_(std::move(contacts)) {
   if (clusters < 1 || clusters >= static_cast<int>(contacts_.size())) {
     throw std::invalid_argument("clusters must be at least 1 and fewer than the contacts");
   }
   for (const grasp::Contact& contact : contacts_) {
-    pyramids_.push_back(PyramidOf(contact, frame_, half_angle_, contacts_));
+    pyramids_.push_back(PyramidOf(contact, frame_, friction_angle_, contacts_));
   }
   const Eigen::MatrixXd distances = WrenchDistances(pyramids_, tell);
   deadline.Check();
@@ -303,7 +305,7 @@ ContactClusters::ContactClusters(std::vector<grasp::Contact> contacts,
 
 int ContactClusters::Add(const grasp::Contact& contact) {
   const auto clustered = std::span(contacts_).first(clustered_count());
-  const WrenchPyramid pyramid = PyramidOf(contact, frame_, half_angle_, clustered);
+  const WrenchPyramid pyramid = PyramidOf(contact, frame_, friction_angle_, clustered);
   Eigen::VectorXd affinity(clustered_count());
   for (int i = 0; i < clustered_count(); ++i) {
     affinity[i] = std::exp(-WrenchDistance(pyramid, pyramids_[i]) / affinity_scale_);

@@ -43,11 +43,11 @@ inline constexpr int kPyramidSides = 8;
 using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 
 /// Return the pyramid of a contact.
-/// @param half_angle  friction angle, radians; the edges of the pyramid are on the cone.
+/// @param friction_angle  friction angle, radians; the edges of the pyramid are on the cone.
 /// @param towards     direction of the first edge along the surface; must not be parallel to the
 ///     normal.
 [[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
-                                      const object::WrenchFrame& frame, double half_angle,
+                                      const object::WrenchFrame& frame, double friction_angle,
                                       const Eigen::Vector3d& towards);
 
 /// Return the pyramid of a contact, with the first edge inclined away from the frame's origin. It
@@ -55,7 +55,7 @@ using WrenchPyramid = Eigen::Matrix<double, 6, kPyramidSides>;
 /// @param others  contacts that define the direction instead if the contact is straight above the
 ///     origin: the first one that is not above it, too.
 [[nodiscard]] WrenchPyramid PyramidOf(const grasp::Contact& contact,
-                                      const object::WrenchFrame& frame, double half_angle,
+                                      const object::WrenchFrame& frame, double friction_angle,
                                       std::span<const grasp::Contact> others);
 
 /// Return the distance of the effects of two contacts on the object (Phoka 2010, 6.2.2.1), radians.
@@ -107,13 +107,13 @@ using ClusterIndex = Index<struct ClusterTag>;
 class ContactClusters {
  public:
   /// @param contacts  contact points, more than `clusters`.
-  /// @param half_angle  friction angle, radians.
+  /// @param friction_angle  friction angle, radians.
   /// @param clusters  number of clusters k, at least 1.
   /// @throws std::invalid_argument  if a number is out of range.
   /// @throws TimeUp  if the deadline passes. It is checked only between stages of one or two
   ///     seconds.
   ContactClusters(std::vector<grasp::Contact> contacts, const object::WrenchFrame& frame,
-                  double half_angle, int clusters, std::uint64_t seed,
+                  double friction_angle, int clusters, std::uint64_t seed,
                   const Deadline& deadline = {}, const Tell& tell = {});
 
   /// Return the clustered contacts, followed by the added ones.
@@ -146,7 +146,7 @@ class ContactClusters {
 
  private:
   object::WrenchFrame frame_;
-  double half_angle_;
+  double friction_angle_;
   std::vector<grasp::Contact> contacts_;
   std::vector<WrenchPyramid> pyramids_;  ///< pyramids of the clustered contacts
   double affinity_scale_ = 0;            ///< 2σ²

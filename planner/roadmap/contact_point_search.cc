@@ -34,8 +34,8 @@ class ContactPointSearch {
         goal_(request.goal),
         roadmap_(RoadmapOver(contacts)),
         evaluator_(*request.object, request.criteria, request.hand),
-        known_(roadmap_.vertex_count(), criteria::KnownGrasp::HeldAt(request.criteria.half_angle)) {
-  }
+        known_(roadmap_.vertex_count(),
+               criteria::KnownGrasp::HeldAt(request.criteria.friction_angle)) {}
 
   planning::PlanResult Run() {
     const int start = ChooseVertex(start_, RandomUse::kStart, std::nullopt);
@@ -112,8 +112,8 @@ class ContactPointSearch {
 
   /// Return the friction margin to kMarginTolerance, radians.
   double Margin(int vertex) {
-    return request_.criteria.half_angle -
-           evaluator_.RequiredHalfAngle(
+    return request_.criteria.friction_angle -
+           evaluator_.RequiredFrictionAngle(
                known_[vertex], [&] { return roadmap_.grasp(vertex); }, kMarginTolerance);
   }
 

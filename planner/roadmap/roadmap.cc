@@ -40,11 +40,11 @@ bool Contains(const Quadruple& vertex, int point) {
 }  // namespace
 
 Roadmap::Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame,
-                 double half_angle, double same_point, double finger_radius,
+                 double friction_angle, double same_point, double finger_radius,
                  const Deadline& deadline, const Tell& tell)
     : points_(std::move(points)), excluded_(FindExcluded(points_, same_point, finger_radius)) {
   any_excluded_ = std::find(excluded_.begin(), excluded_.end(), true) != excluded_.end();
-  vertices_ = grasp::ForceClosureSubsets(points_, frame, half_angle, nullptr, deadline, tell);
+  vertices_ = grasp::ForceClosureSubsets(points_, frame, friction_angle, nullptr, deadline, tell);
   deadline.Check();
   if (any_excluded_) {
     std::erase_if(vertices_, [&](const Quadruple& vertex) {

@@ -49,14 +49,14 @@ using Quadruple = std::array<int, 4>;
 class Roadmap final : public search::SwitchingGraph {
  public:
   /// Test all subsets of four points.
-  /// @param half_angle  friction angle, radians.
+  /// @param friction_angle  friction angle, radians.
   /// @param same_point  distance within which contacts are at the same point.
   /// @param finger_radius  radius of the fingers; 0: points (reach.h).
   /// @throws std::invalid_argument  as TestForceClosure.
   /// @throws TimeUp  if the deadline passes.
-  Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame, double half_angle,
-          double same_point, double finger_radius = 0, const Deadline& deadline = {},
-          const Tell& tell = {});
+  Roadmap(std::vector<grasp::Contact> points, const object::WrenchFrame& frame,
+          double friction_angle, double same_point, double finger_radius = 0,
+          const Deadline& deadline = {}, const Tell& tell = {});
 
   [[nodiscard]] const std::vector<grasp::Contact>& points() const { return points_; }
   [[nodiscard]] const Quadruple& vertex(int index) const { return vertices_[index]; }

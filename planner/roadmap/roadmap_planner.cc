@@ -37,21 +37,21 @@ constexpr double kBytesOfTriple = 8;
 /// eigenvalue problem. Measurements gave 26 to 28 for 1000 to 4000 contact points.
 constexpr double kBytesOfPair = 27;
 
-double ForceClosureShare(const object::Polyhedron& solid, double half_angle) {
+double ForceClosureShare(const object::Polyhedron& solid, double friction_angle) {
   const sampling::SurfaceSampler sampler(solid);
   RandomStream random(0, RandomUse::kContactPoints);
   int count = 0;
   for (int i = 0; i < kTestedGrasps; ++i) {
     grasp::Grasp grasp;
     for (int k = 0; k < kContacts; ++k) grasp.push_back(sampler.DrawAnywhere(random));
-    if (grasp::IsForceClosure(grasp, solid.wrench_frame(), half_angle)) ++count;
+    if (grasp::IsForceClosure(grasp, solid.wrench_frame(), friction_angle)) ++count;
   }
   return static_cast<double>(count) / kTestedGrasps;
 }
 
-MemoryNeed EstimateGrasps(const object::Polyhedron& solid, double half_angle, int points,
+MemoryNeed EstimateGrasps(const object::Polyhedron& solid, double friction_angle, int points,
                           const std::string& units) {
-  const double share = ForceClosureShare(solid, half_angle);
+  const double share = ForceClosureShare(solid, friction_angle);
   const auto bytes_for = [share](int n) {
     return kBytesOfVertex * share * static_cast<double>(Binomial<kContacts>(n)) +
            kBytesOfTriple * static_cast<double>(Binomial<3>(n));
@@ -64,11 +64,11 @@ MemoryNeed EstimateGrasps(const object::Polyhedron& solid, double half_angle, in
 MemoryNeed EstimateRoadmap(const planning::PlanRequest& request) {
   const auto& solid = dynamic_cast<const object::Polyhedron&>(*request.object);
   const RoadmapSize size = SizeOf(request);
-  const double half_angle = request.criteria.half_angle;
+  const double friction_angle = request.criteria.friction_angle;
   if (size.clusters == 0) {
-    return EstimateGrasps(solid, half_angle, size.contacts, "contact points");
+    return EstimateGrasps(solid, friction_angle, size.contacts, "contact points");
   }
-  MemoryNeed grasps = EstimateGrasps(solid, half_angle, size.clusters, "clusters");
+  MemoryNeed grasps = EstimateGrasps(solid, friction_angle, size.clusters, "clusters");
   MemoryNeed clustering = {"the clustering of the planner roadmap", size.contacts, "contact points",
                            [](double n) { return kBytesOfPair * n * n; }};
   return clustering.bytes() > grasps.bytes() ? clustering : grasps;
@@ -93,7 +93,7 @@ std::vector<RandomQuery> RunRandomQueries(const ClusteredRoadmap& roadmap,
                                           const object::Polyhedron& solid, int count,
                                           std::uint64_t seed, bool last_resort,
                                           const Deadline& deadline, const Tell& tell) {
-  const criteria::GraspCriteria force_closure = {roadmap.half_angle, 0};
+  const criteria::GraspCriteria force_closure = {roadmap.friction_angle, 0};
   const criteria::GraspEvaluator evaluator(solid, force_closure);
   RandomStream starts(seed, RandomUse::kStart);
   RandomStream goals(seed, RandomUse::kGoal);

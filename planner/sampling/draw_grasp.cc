@@ -31,8 +31,8 @@ std::vector<Direction> SortedNormals(const object::Object& polygon) {
 /// Each contact must be in the other contact's cone. The normals are therefore opposed up to twice
 /// the friction angle. For each normal only the neighbours of its opposite in angular order are
 /// tested.
-bool HasOpposedEdges(const object::Object& polygon, double half_angle) {
-  const double least = std::cos(2 * half_angle);
+bool HasOpposedEdges(const object::Object& polygon, double friction_angle) {
+  const double least = std::cos(2 * friction_angle);
   const std::vector<Direction> sorted = SortedNormals(polygon);
   const std::size_t n = sorted.size();
   return std::ranges::any_of(sorted, [&](const Direction& one) {
@@ -100,7 +100,7 @@ grasp::Grasp DrawOnSurface(const object::Object& object, const grasp::ContactLim
                                       std::to_string(SurfaceSampler::kMostDraws) +
                                       " points drawn on the surface";
   for (const int count : DrawOrder(object, contacts, random)) {
-    if (count == 2 && !HasOpposedEdges(object, evaluator.half_angle())) continue;
+    if (count == 2 && !HasOpposedEdges(object, evaluator.friction_angle())) continue;
     const auto draw = [&] {
       before_draw();
       return DrawContacts(sampler, count, random, nothing_reached);

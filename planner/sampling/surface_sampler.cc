@@ -20,7 +20,7 @@ namespace {
 constexpr double kOffFace = 1e-9;
 
 /// Initial search radius for the nearest face, relative to the reach.
-constexpr double kFirstLook = 1.0 / 64;
+constexpr double kFirstRadius = 1.0 / 64;
 
 double AreaOverPerimeter(const object::Object& object, FaceIndex face) {
   double perimeter = 0;
@@ -185,7 +185,7 @@ grasp::Contact SurfaceSampler::DrawAround(const grasp::Contact& contact, double 
                                           RandomStream& random) const {
   const Vector3d p = DrawBeside(contact, reach, random);
   // A search for faces in a large radius is expensive, and most faces are near.
-  for (double radius = kFirstLook * reach; radius <= reach; radius *= 2) {
+  for (double radius = kFirstRadius * reach; radius <= reach; radius *= 2) {
     std::vector<FaceIndex> faces = object_.FacesNear(p, radius);
     std::erase_if(faces, [&](FaceIndex face) { return !object_.TakesFingers(face); });
     if (faces.empty()) continue;

@@ -9,8 +9,8 @@
 
 namespace regrasp::sets {
 
-double SetGraph::CheckedTangent(double half_angle) {
-  if (half_angle > 0 && half_angle < std::numbers::pi / 2) return std::tan(half_angle);
+double SetGraph::CheckedTangent(double friction_angle) {
+  if (friction_angle > 0 && friction_angle < std::numbers::pi / 2) return std::tan(friction_angle);
   throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
 }
 

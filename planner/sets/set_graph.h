@@ -35,7 +35,7 @@ class SetGraph : public search::SwitchingGraph {
  protected:
   /// Compute tan θ.
   /// @throws std::invalid_argument  if θ is not in (0, π/2).
-  static double CheckedTangent(double half_angle);
+  static double CheckedTangent(double friction_angle);
 
   // Stages of construction; a derived graph calls them in this order.
   void BeginVertices();

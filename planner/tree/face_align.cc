@@ -38,7 +38,7 @@ motion::GraspMotion MotionBetween(const grasp::Grasp& from, const grasp::Grasp& 
 bool HoldsAt(const motion::GraspMotion& motion, double t, SearchSpace& space) {
   space.CountTests(1);
   return grasp::IsForceClosure(motion::GraspAt(motion, t), space.object().wrench_frame(),
-                               space.half_angle());
+                               space.friction_angle());
 }
 
 /// Return whether fingers with a radius can execute a sliding step.
@@ -233,7 +233,7 @@ std::optional<FaceAlign> Prove(ContactPairs pairs, std::vector<grasp::Grasp> way
   for (const motion::GraspMotion& motion : motions) {
     space.CountTests(kTestsOfAProof);
     auto proof =
-        motion::FindMotionProof(motion, space.dimension(), space.half_angle(), kShortestPiece);
+        motion::FindMotionProof(motion, space.dimension(), space.friction_angle(), kShortestPiece);
     if (!proof) return std::nullopt;
     align.proof.push_back(*std::move(proof));
   }

@@ -136,12 +136,13 @@ void MaximiseMarginOn(Subpath subpath, int more_steps, const sampling::SurfaceSa
                       RandomStream& random, SearchSpace& space, GraspPath& path) {
   const GraspPath part = PartOf(path, subpath);
   const double least =
-      std::max(space.RequiredHalfAngle(part.start), space.RequiredHalfAngle(part.end()));
+      std::max(space.RequiredFrictionAngle(part.start), space.RequiredFrictionAngle(part.end()));
   FillUp(subpath, kSubpathContacts, source, random, space);
   const auto wider = SearchWidest(part.start, part.end(), subpath.contacts, UseAligns::kYes,
                                   static_cast<int>(part.steps.size()) + more_steps, least, space);
   // The search may have refused sliding steps of the part because of its limits.
-  if (!wider || RequiredHalfAngleOf(*wider, space) > RequiredHalfAngleOf(part, space)) return;
+  if (!wider || RequiredFrictionAngleOf(*wider, space) > RequiredFrictionAngleOf(part, space))
+    return;
   ReplaceSubpath(*wider, subpath, path);
 }
 
@@ -209,10 +210,10 @@ GraspPath MinimiseTravel(GraspPath path, const sampling::SurfaceSampler& source,
   return path;
 }
 
-double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space) {
-  double required = space.RequiredHalfAngle(path.start);
+double RequiredFrictionAngleOf(const GraspPath& path, SearchSpace& space) {
+  double required = space.RequiredFrictionAngle(path.start);
   for (const PathStep& step : path.steps) {
-    required = std::max(required, space.RequiredHalfAngle(step.to));
+    required = std::max(required, space.RequiredFrictionAngle(step.to));
   }
   return required;
 }

@@ -70,7 +70,7 @@ inline constexpr int kMoreSteps = 2;
                                        RandomStream& random, SearchSpace& space);
 
 /// Return the largest required friction angle of the path's static grasps, ends included, radians.
-[[nodiscard]] double RequiredHalfAngleOf(const GraspPath& path, SearchSpace& space);
+[[nodiscard]] double RequiredFrictionAngleOf(const GraspPath& path, SearchSpace& space);
 
 /// Find a path over a few contacts with the least travel (TravelOf, path_plan.h).
 /// Dijkstra's search (1959) over finger switches and sliding steps. A subset is tested when it is

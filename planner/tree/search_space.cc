@@ -7,7 +7,7 @@ namespace regrasp::tree {
 namespace {
 
 /// Number of tests between two readings of the clock, about a millisecond.
-constexpr std::int64_t kTestsBetweenLooks = 500;
+constexpr std::int64_t kTestsBetweenChecks = 500;
 
 /// Cost of ray shooting for a quality, in force-closure tests.
 constexpr std::int64_t kShotCost = 40;
@@ -24,10 +24,10 @@ std::int64_t SearchSpace::tests() const {
 }
 
 bool SearchSpace::IsSpent() {
-  if (tests() >= next_look_) {
-    next_look_ = tests() + kTestsBetweenLooks;
+  if (tests() >= next_check_) {
+    next_check_ = tests() + kTestsBetweenChecks;
     out_of_time_ = limits_.deadline.IsOver();
-    limits_.on_look(tests());
+    limits_.on_check(tests());
   }
   return out_of_time_ || tests() >= limits_.most_tests;
 }

@@ -14,7 +14,7 @@ struct SearchLimits {
   std::int64_t most_tests = std::numeric_limits<std::int64_t>::max();
   Deadline deadline = {};
   /// Callback with the number of tests, called whenever the clock is read.
-  std::function<void(std::int64_t tests)> on_look = [](std::int64_t) {};
+  std::function<void(std::int64_t tests)> on_check = [](std::int64_t) {};
 };
 
 /// Contacts and grasps of a search.
@@ -42,7 +42,7 @@ class SearchSpace : public criteria::GraspMemory {
   int fingers_;
   std::int64_t more_tests_ = 0;  ///< tests that the memory does not count
   SearchLimits limits_;
-  std::int64_t next_look_ = 0;  ///< number of tests at which the clock is read next
+  std::int64_t next_check_ = 0;  ///< number of tests at which the clock is read next
   bool out_of_time_ = false;
 };
 

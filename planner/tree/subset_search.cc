@@ -112,7 +112,8 @@ std::optional<GraspPath> SubsetGraph::MakePath(const std::vector<Mask>& masks) {
     if (!IsSwitch(before, masks[i])) {
       step.align = AlignBetween(SetOf(before), step.to, space_);
       if (!step.align) {
-        refused_[{std::min(before, masks[i]), std::max(before, masks[i])}] = space_.half_angle();
+        refused_[{std::min(before, masks[i]), std::max(before, masks[i])}] =
+            space_.friction_angle();
         if (refused_.size() >= kMostRefusals) aligns_ = false;
         if (TupleOf(SetOf(before), space_) != TupleOf(step.to, space_)) ++over_refusals_;
         if (over_refusals_ >= kMostOverRefusals) over_ = 0;
@@ -245,14 +246,14 @@ std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
                                       const criteria::ContactSet& to,
                                       const std::vector<int>& contacts, UseAligns aligns,
                                       int most_steps, double least, SearchSpace& space) {
-  const double before = space.half_angle();
+  const double before = space.friction_angle();
   SubsetSearch search({from, to, contacts, aligns, space}, most_steps);
   std::optional<GraspPath> widest;
   double low = least;
   double high = before;
   // Usually the ends determine the result.
   for (double middle = low + kEqualAngles; middle < high; middle = (low + high) / 2) {
-    space.SetHalfAngle(middle);
+    space.SetFrictionAngle(middle);
     if (auto path = search.Search()) {
       widest = std::move(path);
       high = middle;
@@ -261,7 +262,7 @@ std::optional<GraspPath> SearchWidest(const criteria::ContactSet& from,
     }
     if (high - low <= kEqualAngles) break;
   }
-  space.SetHalfAngle(before);
+  space.SetFrictionAngle(before);
   return widest;
 }
 

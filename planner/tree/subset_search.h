@@ -152,7 +152,7 @@ class SubsetGraph {
 
   [[nodiscard]] bool IsRefused(Mask a, Mask b) const {
     const auto found = refused_.find({std::min(a, b), std::max(a, b)});
-    return found != refused_.end() && space_.half_angle() <= found->second;
+    return found != refused_.end() && space_.friction_angle() <= found->second;
   }
 
   SearchSpace& space_;

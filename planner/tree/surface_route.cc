@@ -5,7 +5,7 @@
 #include <set>
 
 #include "planner/criteria/reach.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/check_motion_proof.h"
 
 namespace regrasp::tree {

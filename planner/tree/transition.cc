@@ -34,7 +34,7 @@ class Descent {
         held_(before),
         placed_(placed),
         path_{before},
-        lowest_(space.criteria().AsksMore() ? 0 : space.half_angle()) {}
+        lowest_(space.criteria().AsksMore() ? 0 : space.friction_angle()) {}
 
   std::optional<Transition> Find() {
     if (!space_.HoldsAt(After(held_, placed_), kHighest)) return std::nullopt;
@@ -42,7 +42,7 @@ class Descent {
     Lower(held_, placed_);
     double reach = kFirstReach;
     while (reach > kLeastReach && !space_.IsSpent()) {
-      if (level_ <= space_.half_angle()) {
+      if (level_ <= space_.friction_angle()) {
         if (auto found = Finish()) return found;
       }
       reach *= Move(reach * space_.object().diameter()) ? kFarther : kNearer;

@@ -110,7 +110,7 @@ using Status = planning::PlanResult::Status;
 /// Shares of the criteria for further searches if the repair of the first sequence fails. Their
 /// grasps meet the share from the beginning. Each search has this part of the search budget.
 constexpr std::array kShares = {0.6, 1.0};
-constexpr int kShareEffortShare = 4;
+constexpr int kShareBudgetShare = 4;
 
 /// Number of bisection steps for the friction angle at which a sequence is found, and the largest
 /// such angle, radians.
@@ -119,7 +119,7 @@ const double kLargestExplained = Radians(85);
 
 /// Divisor of the search budget for each search of --explain, relative to the search that found
 /// nothing.
-constexpr int kExplainEffortShare = 4;
+constexpr int kExplainBudgetShare = 4;
 
 /// State of the planning of one sequence, shared by its stages.
 class TreeSearch {
@@ -127,7 +127,7 @@ class TreeSearch {
   explicit TreeSearch(const planning::PlanRequest& request)
       : request_(request),
         object_(*request.object),
-        half_angle_(request.criteria.half_angle),
+        friction_angle_(request.criteria.friction_angle),
         parameters_(request.parameters.Get<planning::SearchParameters>()),
         most_tests_(parameters_.budget.value_or(TreePlanner::kDefaultTests)),
         evaluator_(object_, request.criteria, request.hand),
@@ -138,12 +138,12 @@ class TreeSearch {
     const grasp::Grasp& from = request_.start.grasp;
     const grasp::Grasp& to = request_.goal.grasp;
     SearchSpace wide =
-        MakeSpace(half_angle_, 0, most_tests_, "growing trees of grasps from start and goal");
+        MakeSpace(friction_angle_, 0, most_tests_, "growing trees of grasps from start and goal");
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // Only the contacts of the path, because the search may have added thousands.
     SearchSpace space =
-        MakeSpace(half_angle_, 1, most_tests_, "shortening and widening the sequence");
+        MakeSpace(friction_angle_, 1, most_tests_, "shortening and widening the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
@@ -164,10 +164,10 @@ class TreeSearch {
   /// Make a search space.
   /// @param share  required share of the criteria.
   /// @param what   name of the activity for progress messages.
-  SearchSpace MakeSpace(double half_angle, double share, std::int64_t most_tests,
+  SearchSpace MakeSpace(double friction_angle, double share, std::int64_t most_tests,
                         const std::string& what) const {
     criteria::GraspCriteria criteria = request_.criteria;
-    criteria.half_angle = half_angle;
+    criteria.friction_angle = friction_angle;
     SearchSpace space(object_, criteria, request_.hand);
     space.SetShare(share);
     CountedProgress progress(request_.progress, what + ", tests", most_tests);
@@ -208,7 +208,7 @@ class TreeSearch {
     double best = Repair(path, space);
     for (const double share : kShares) {
       if (best == 1) return path;
-      SearchSpace wide = MakeSpace(half_angle_, share, most_tests_ / kShareEffortShare,
+      SearchSpace wide = MakeSpace(friction_angle_, share, most_tests_ / kShareBudgetShare,
                                    "searching for grasps" + asked);
       const auto found = Search(from, to, wide);
       // A search that fails with lower requirements also fails with higher ones.
@@ -268,7 +268,7 @@ class TreeSearch {
                FormatShort(TravelOf(path, space) / object_.diameter()) + " diameters";
       case planning::Objective::kMargin:
         return "a friction margin of " +
-               FormatFixed(Degrees(half_angle_ - Needed(path, from, space)), 2) + "°";
+               FormatFixed(Degrees(friction_angle_ - Needed(path, from, space)), 2) + "°";
       default:
         return "";
     }
@@ -280,7 +280,7 @@ class TreeSearch {
     planning::CandidateSequence candidate = MakeCandidate(path, from, space);
     plan::Plan plan;
     plan.dimension = object_.dimension();
-    plan.half_angle = half_angle_;
+    plan.friction_angle = friction_angle_;
     plan.fingers = request_.hand.fingers;
     plan.torsion = request_.hand.torsion;
     plan.goal = candidate.grasps.back().grasp;
@@ -288,7 +288,7 @@ class TreeSearch {
     plan.steps = std::move(candidate.steps);
     const plan::PlanCheck check = plan::CheckPlan(object_, plan);
     const plan::EntryIndex weakest = plan::WeakestStep(check.steps);
-    return weakest.valid() ? check.steps[weakest].required->upper : half_angle_;
+    return weakest.valid() ? check.steps[weakest].required->upper : friction_angle_;
   }
 
   planning::PlanResult NoSequence(const grasp::Grasp& from, const grasp::Grasp& to) {
@@ -311,12 +311,12 @@ class TreeSearch {
 
   /// Report the smallest friction angle at which a sequence is found.
   std::string Explain(const grasp::Grasp& from, const grasp::Grasp& to) {
-    double none = half_angle_;
+    double none = friction_angle_;
     double some = kLargestExplained;
-    const auto finds = [&](double half_angle) {
+    const auto finds = [&](double friction_angle) {
       SearchSpace space =
-          MakeSpace(half_angle, 0, most_tests_ / kExplainEffortShare,
-                    "searching for a sequence at " + FormatShort(Degrees(half_angle)) + "°");
+          MakeSpace(friction_angle, 0, most_tests_ / kExplainBudgetShare,
+                    "searching for a sequence at " + FormatShort(Degrees(friction_angle)) + "°");
       return Search(from, to, space).has_value();
     };
     if (!finds(some))
@@ -331,7 +331,7 @@ class TreeSearch {
 
   const planning::PlanRequest& request_;
   const object::Object& object_;
-  double half_angle_;  ///< friction angle of the request's criteria
+  double friction_angle_;  ///< friction angle of the request's criteria
   planning::SearchParameters parameters_;
   std::int64_t most_tests_;
   criteria::GraspEvaluator evaluator_;

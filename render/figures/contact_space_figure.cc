@@ -239,10 +239,10 @@ namespace {
 
 constexpr int kDigits = 3;  ///< significant digits of lengths and angles in captions
 
-std::string OverviewCaption(const ContactSpaceMap& map, double half_angle) {
+std::string OverviewCaption(const ContactSpaceMap& map, double friction_angle) {
   const bool stretching =
       std::ranges::any_of(map.sets, [](const MapSet& set) { return set.stretching; });
-  return "contact space, θ = " + FormatShort(Degrees(half_angle), kDigits) +
+  return "contact space, θ = " + FormatShort(Degrees(friction_angle), kDigits) +
          "°: " + std::to_string(map.set_count) + (map.set_count == 1 ? " set" : " sets") +
          " of 2-finger grasps" + (stretching ? " (hatched: stretching)" : "") +
          "; dots: grasps after each step, solid: sliding steps, dashed: finger switches";
@@ -264,7 +264,7 @@ std::string SwitchCaption(const ContactSwitch& step, const plan::Plan& plan, Fin
 
 ContactSpaceFigures::ContactSpaceFigures(const object::Polygon& polygon, const plan::Plan& plan)
     : plan_(plan),
-      graph_(polygon, plan.half_angle),
+      graph_(polygon, plan.friction_angle),
       geometry_(graph_),
       track_(TrackPlan(plan)),
       names_(NameSets(geometry_, track_)),
@@ -272,7 +272,7 @@ ContactSpaceFigures::ContactSpaceFigures(const object::Polygon& polygon, const p
 
 std::string ContactSpaceFigures::DrawOverview(FigureFormat format) {
   const ContactSpaceMap map = MapContactSpace(geometry_, track_);
-  return DrawContactSpace(graph_.boundary(), map, unit_, OverviewCaption(map, plan_.half_angle),
+  return DrawContactSpace(graph_.boundary(), map, unit_, OverviewCaption(map, plan_.friction_angle),
                           format);
 }
 

@@ -69,7 +69,7 @@ class CommonPoints {
       Region region = Page();
       for (std::size_t k = 0; k < cones.size(); ++k) {
         const double side = ((sides >> k) & 1U) != 0 ? -1 : 1;
-        Clip(cones[k].apex, side * cones[k].axis, kNarrower * cones[k].half_angle, region);
+        Clip(cones[k].apex, side * cones[k].axis, kNarrower * cones[k].friction_angle, region);
       }
       Outline outline = ToOutline(region);
       if (outline.size() > 2 && Area(outline) > kLeastArea * diameter_ * diameter_) {
@@ -92,11 +92,12 @@ class CommonPoints {
   }
 
   /// Clip a region to one side of a double-sided cone.
-  static void Clip(const Vector2d& apex, const Vector2d& axis, double half_angle, Region& region) {
+  static void Clip(const Vector2d& apex, const Vector2d& axis, double friction_angle,
+                   Region& region) {
     const polygon::Vector2<double> p = FromEigen(apex);
     const double middle = AngleOf(axis);
-    region.Clip(polygon::LeftOf(FromEigen(Direction(middle - half_angle)), p));
-    region.Clip(polygon::LeftOf(FromEigen(-Direction(middle + half_angle)), p));
+    region.Clip(polygon::LeftOf(FromEigen(Direction(middle - friction_angle)), p));
+    region.Clip(polygon::LeftOf(FromEigen(-Direction(middle + friction_angle)), p));
   }
 
   static Outline ToOutline(const Region& region) {
@@ -113,19 +114,19 @@ class CommonPoints {
 
 /// Return all parts of the focus cell of three edges.
 std::vector<Outline> CellOf(const object::Polygon& polygon, const grasp::Grasp& grasp,
-                            double half_angle) {
+                            double friction_angle) {
   polygon::GraspSet set;
-  set.tangent = std::tan(half_angle);
+  set.tangent = std::tan(friction_angle);
   for (const grasp::Contact& contact : grasp) set.edges.push_back(contact.face);
   std::sort(set.edges.begin(), set.edges.end());
   set.parts = {0, 1, 2, 3, 4, 5, 6, 7};
   return polygon::FocusCell(polygon, set);
 }
 
-Frame FrameOf(const object::Polygon& polygon, FaceIndex face, double half_angle) {
+Frame FrameOf(const object::Polygon& polygon, FaceIndex face, double friction_angle) {
   const auto [a, b] = polygon.edge(face);
   return polygon::MakeEdgeFrame<double>({FromEigen(Head(a)), FromEigen(Head(b))},
-                                        std::tan(half_angle));
+                                        std::tan(friction_angle));
 }
 
 /// Return φ* of the normals; not positive if they do not positively span the plane.
@@ -140,41 +141,41 @@ double LargestSpanningAngle(const grasp::Grasp& grasp) {
   return (kHalfTurn - largest_gap) / 2;
 }
 
-std::vector<DoubleCone> FrictionCones(const grasp::Grasp& grasp, double half_angle) {
+std::vector<DoubleCone> FrictionCones(const grasp::Grasp& grasp, double friction_angle) {
   std::vector<DoubleCone> cones;
   for (const grasp::Contact& contact : grasp) {
-    cones.push_back({Head(contact.p), Head(contact.n), half_angle});
+    cones.push_back({Head(contact.p), Head(contact.n), friction_angle});
   }
   return cones;
 }
 
-std::optional<GraspDiagram> TryTwoFinger(const grasp::Grasp& grasp, double half_angle) {
+std::optional<GraspDiagram> TryTwoFinger(const grasp::Grasp& grasp, double friction_angle) {
   const Vector2d line = Head(grasp[1].p - grasp[0].p).normalized();
   const double first = line.dot(Head(grasp[0].n));
   const double second = -line.dot(Head(grasp[1].n));
-  const double least = std::cos(half_angle);
+  const double least = std::cos(friction_angle);
   const bool pressing = first > least && second > least;
   const bool stretching = -first > least && -second > least;
   if (!pressing && !stretching) return std::nullopt;
   GraspDiagram diagram;
   diagram.kind = DiagramKind::kTwoFinger;
-  diagram.cones = FrictionCones(grasp, half_angle);
+  diagram.cones = FrictionCones(grasp, friction_angle);
   return diagram;
 }
 
 std::optional<GraspDiagram> TryConcurrent(const object::Polygon& polygon, const grasp::Grasp& grasp,
                                           double friction) {
-  const double half_angle = std::min(friction, LargestSpanningAngle(grasp));
-  if (half_angle <= 0) return std::nullopt;
+  const double friction_angle = std::min(friction, LargestSpanningAngle(grasp));
+  if (friction_angle <= 0) return std::nullopt;
   GraspDiagram diagram;
   diagram.kind = DiagramKind::kConcurrent;
-  diagram.cones = FrictionCones(grasp, half_angle);
+  diagram.cones = FrictionCones(grasp, friction_angle);
   const std::vector<Outline> common = CommonPoints(polygon).Find(diagram.cones);
   if (common.empty()) return std::nullopt;
   diagram.focus = Centroid(
       *std::max_element(common.begin(), common.end(),
                         [](const Outline& a, const Outline& b) { return Area(a) < Area(b); }));
-  diagram.focus_cell = CellOf(polygon, grasp, half_angle);
+  diagram.focus_cell = CellOf(polygon, grasp, friction_angle);
   return diagram;
 }
 
@@ -212,14 +213,14 @@ std::optional<Vector2d> SeparatingDirection(const polygon::DirectionCone<double>
 }
 
 std::optional<GraspDiagram> TryParallel(const object::Polygon& polygon, const grasp::Grasp& grasp,
-                                        double half_angle) {
+                                        double friction_angle) {
   for (int a = 0; a < 3; ++a) {
     const grasp::Contact& centre = grasp[a];
     const grasp::Contact& b = grasp[(a + 1) % 3];
     const grasp::Contact& c = grasp[(a + 2) % 3];
-    const auto cone = polygon::CommonCone(FrameOf(polygon, centre.face, half_angle),
-                                          FrameOf(polygon, b.face, half_angle),
-                                          FrameOf(polygon, c.face, half_angle));
+    const auto cone = polygon::CommonCone(FrameOf(polygon, centre.face, friction_angle),
+                                          FrameOf(polygon, b.face, friction_angle),
+                                          FrameOf(polygon, c.face, friction_angle));
     if (!cone) continue;
     const auto direction = SeparatingDirection(*cone, Head(centre.p), Head(b.p), Head(c.p));
     if (!direction) continue;
@@ -257,7 +258,7 @@ GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& g
     // If both types apply, wider cones show more of the grasp.
     diagram = TryConcurrent(polygon, grasp, friction_angle);
     auto parallel = TryParallel(polygon, grasp, friction_angle);
-    const auto width = [](const GraspDiagram& d) { return d.cones.front().half_angle; };
+    const auto width = [](const GraspDiagram& d) { return d.cones.front().friction_angle; };
     if (parallel && (!diagram || width(*parallel) > width(*diagram))) diagram = std::move(parallel);
   }
   if (diagram) return *diagram;

@@ -17,11 +17,11 @@ enum class DiagramKind {
   kOther,       ///< friction cones only: more than three contacts, or none of these types
 };
 
-/// The points apex ± s·d with s ≥ 0 and the direction d within `half_angle` of `axis`.
+/// The points apex ± s·d with s ≥ 0 and the direction d within `friction_angle` of `axis`.
 struct DoubleCone {
   Eigen::Vector2d apex;
-  Eigen::Vector2d axis;   ///< unit vector to the inner side of the edge
-  double half_angle = 0;  ///< angle between axis and border, radians
+  Eigen::Vector2d axis;       ///< unit vector to the inner side of the edge
+  double friction_angle = 0;  ///< angle between axis and border, radians
 };
 
 /// A convex polygon, counter-clockwise.
@@ -54,7 +54,7 @@ struct GraspDiagram {
 /// The focus point is the centroid of the largest part of the intersection of the cones. Any other
 /// interior point is equivalent. The result does not depend on the order of the contacts, apart
 /// from the order of `cones`. It moves with the object under rigid motion and scaling.
-/// @param grasp           contacts with their faces, as LocatePlan returns them.
+/// @param grasp           contacts with their faces, as ProjectPlan returns them.
 /// @param friction_angle  friction angle θ, radians.
 /// @throws std::invalid_argument  if a contact has no face, or if θ is not in (0, π/2).
 [[nodiscard]] GraspDiagram DescribeGrasp(const object::Polygon& polygon, const grasp::Grasp& grasp,

@@ -41,7 +41,7 @@ std::string Describe(const GraspDiagram& grasp, double friction) {
   std::string name = TypeName(grasp.kind);
   if (grasp.kind != DiagramKind::kConcurrent) return name;
   const auto degrees = [](double radians) { return FormatShort(Degrees(radians), 3) + "°"; };
-  const std::string drawn = degrees(grasp.cones.front().half_angle);
+  const std::string drawn = degrees(grasp.cones.front().friction_angle);
   const std::string theta = degrees(friction);
   return drawn == theta ? name : name + "; φ = " + drawn + " < θ = " + theta;
 }
@@ -107,9 +107,9 @@ std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon, const plan
     if (step != nullptr) grasp = plan::GraspAfter(before, *step);
     StepDiagram diagram;
     diagram.kind = step != nullptr ? plan::StepKind(*step) : "hold";
-    diagram.grasp = DescribeGrasp(polygon, plan::ContactsOf(grasp), plan.half_angle);
+    diagram.grasp = DescribeGrasp(polygon, plan::ContactsOf(grasp), plan.friction_angle);
     diagram.caption = PanelLabel(entry) + " " + EntryTitle(plan, entry) + "; " +
-                      Describe(diagram.grasp, plan.half_angle);
+                      Describe(diagram.grasp, plan.friction_angle);
     for (const plan::FingerContact& held : grasp) {
       diagram.fingers.push_back(
           {held.finger, plan::FingerRole::kHolding, BorderPointOf(held.contact), {}});

@@ -43,7 +43,7 @@ struct StepDiagram {
 ///
 /// A caption states the step, the type of the grasp after it, and the angle φ of the cones if it is
 /// smaller than the friction angle θ.
-/// @param plan  valid plan (CheckPlan) that is located on the polygon (LocatePlan).
+/// @param plan  valid plan (CheckPlan) that is located on the polygon (ProjectPlan).
 [[nodiscard]] std::vector<StepDiagram> DescribePlan(const object::Polygon& polygon,
                                                     const plan::Plan& plan);
 

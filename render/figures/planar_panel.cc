@@ -130,18 +130,19 @@ constexpr Color kCellInk = {96, 104, 118};
 /// The part of one side of a cone between two distances from its apex.
 struct Sector {
   Vector2d apex;
-  double middle;      ///< angle of the axis, radians
-  double half_angle;  ///< angle between axis and border, radians
+  double middle;          ///< angle of the axis, radians
+  double friction_angle;  ///< angle between axis and border, radians
   double from = 0;
   double to = 0;
 };
 
 void FillSector(cairo_t* cr, const Sector& sector, Color color, double opacity) {
-  const auto& [apex, middle, half_angle, from, to] = sector;
+  const auto& [apex, middle, friction_angle, from, to] = sector;
   cairo_new_path(cr);
-  cairo_arc(cr, apex.x(), apex.y(), to, middle - half_angle, middle + half_angle);
+  cairo_arc(cr, apex.x(), apex.y(), to, middle - friction_angle, middle + friction_angle);
   if (from > 0) {
-    cairo_arc_negative(cr, apex.x(), apex.y(), from, middle + half_angle, middle - half_angle);
+    cairo_arc_negative(cr, apex.x(), apex.y(), from, middle + friction_angle,
+                       middle - friction_angle);
   } else {
     cairo_line_to(cr, apex.x(), apex.y());
   }
@@ -150,15 +151,16 @@ void FillSector(cairo_t* cr, const Sector& sector, Color color, double opacity) 
 }
 
 /// Draw one side of a cone with a round end, paler beyond `default_length`.
-void DrawSide(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double half_angle,
+void DrawSide(cairo_t* cr, const Vector2d& apex, const Vector2d& axis, double friction_angle,
               double default_length, double length, Color color) {
   const double middle = std::atan2(axis.y(), axis.x());
-  FillSector(cr, {apex, middle, half_angle, 0, std::min(default_length, length)}, color, kConeFill);
+  FillSector(cr, {apex, middle, friction_angle, 0, std::min(default_length, length)}, color,
+             kConeFill);
   if (length > default_length) {
-    FillSector(cr, {apex, middle, half_angle, default_length, length}, color, kLongConeFill);
+    FillSector(cr, {apex, middle, friction_angle, default_length, length}, color, kLongConeFill);
   }
   SetColor(cr, color, kConeBorderOpacity);
-  for (const double side : {-half_angle, half_angle}) {
+  for (const double side : {-friction_angle, friction_angle}) {
     const Vector2d direction(std::cos(middle + side), std::sin(middle + side));
     StrokeLine(cr, apex, apex + length * direction, kConeBorder);
   }
@@ -170,7 +172,7 @@ double LengthOnPanel(const DoubleCone& cone, int side, const PanelView& view) {
   const Vector2d axis = side * PanelView::ToPanelDirection(cone.axis);
   const Vector2d corner(view.width, view.height);
   double length = corner.norm();
-  for (const double turn : {-cone.half_angle, 0.0, cone.half_angle}) {
+  for (const double turn : {-cone.friction_angle, 0.0, cone.friction_angle}) {
     const Vector2d direction = Eigen::Rotation2Dd(turn) * axis;
     for (int k = 0; k < 2; ++k) {
       if (direction[k] == 0) continue;
@@ -225,7 +227,7 @@ void DrawCones(cairo_t* cr, const object::Polygon& polygon, const StepDiagram& d
     const DoubleCone& cone = grasp.cones[i];
     for (const int side : {1, -1}) {
       DrawSide(cr, view.ToPanel(cone.apex), side * PanelView::ToPanelDirection(cone.axis),
-               cone.half_angle, DefaultLength(polygon, cone, side, view),
+               cone.friction_angle, DefaultLength(polygon, cone, side, view),
                ConeLength(polygon, grasp, cone, side, view),
                FingerColor(diagram.fingers[i].finger));
     }
@@ -414,7 +416,8 @@ std::vector<Obstacle> ObstaclesOf(const object::Polygon& polygon, const StepDiag
     for (const int side : {1, -1}) {
       const double length = ConeLength(polygon, diagram.grasp, cone, side, view);
       const Vector2d axis = side * length * PanelView::ToPanelDirection(cone.axis);
-      obstacles.push_back({apex, apex + axis, length * std::sin(cone.half_angle) / 2, kConeWeight});
+      obstacles.push_back(
+          {apex, apex + axis, length * std::sin(cone.friction_angle) / 2, kConeWeight});
     }
     if (diagram.grasp.force_direction) {
       const Vector2d offset =

@@ -156,7 +156,7 @@ class SolidPainter {
   }
 
   /// Draw the outline of a cone: its apex and the visible part of its rim.
-  void DrawCone(const FingerGlyph& glyph, double half_angle) {
+  void DrawCone(const FingerGlyph& glyph, double friction_angle) {
     if (glyph.role == plan::FingerRole::kReleased) return;
     const Vector3d axis = -glyph.outward;
     const Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
@@ -166,8 +166,8 @@ class SolidPainter {
       const double turn = 2 * M_PI * i / kConeSides;
       rim.push_back(camera_(
           glyph.contact +
-          kConeLength * (std::cos(half_angle) * axis +
-                         std::sin(half_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
+          kConeLength * (std::cos(friction_angle) * axis +
+                         std::sin(friction_angle) * (std::cos(turn) * u + std::sin(turn) * v))));
     }
     const Color color = FingerColor(glyph.finger);
     cairo_new_path(cr_);
@@ -286,7 +286,7 @@ SolidPanels::SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan
                          const SolidFigureOptions& options)
     : frame_{plan.scale * solid.diameter(), plan.scale * solid.mass_properties().centroid},
       body_(MakeBodyShape(solid, options.body)),
-      friction_angle_(plan.half_angle) {
+      friction_angle_(plan.friction_angle) {
   const int entries = static_cast<int>(plan.steps.size()) + 1;
   for (plan::EntryIndex entry{0}; entry < entries; ++entry) {
     const plan::Snapshot snapshot = plan::MakePlannedSnapshot(plan, entry, {}, 0);

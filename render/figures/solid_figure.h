@@ -56,7 +56,7 @@ struct SolidFigureOptions {
 class SolidPanels final : public FigurePanels {
  public:
   /// Create the panels.
-  /// @param plan  valid plan (CheckPlan) that is located on the solid (LocatePlan).
+  /// @param plan  valid plan (CheckPlan) that is located on the solid (ProjectPlan).
   SolidPanels(const object::Polyhedron& solid, const plan::Plan& plan,
               const SolidFigureOptions& options = {});
 

@@ -5,7 +5,7 @@
 
 #include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 namespace regrasp::render {
 
@@ -77,7 +77,7 @@ class FaultSceneBuilder {
     AddFingertips();
     AddHand();
     AddMotion();
-    scene_.marks.push = fault_.push;
+    scene_.marks.disturbance = fault_.disturbance;
     LeaveOutWhatIsFar();
     return scene_;
   }

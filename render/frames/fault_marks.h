@@ -61,7 +61,7 @@ struct FaultMarks {
   std::vector<Fingertip> fingertips = {};
   std::vector<Spot> spots = {};
   std::vector<plan::HandLink> links = {};  ///< links of the hand that are drawn in red
-  std::optional<plan::FaultPush> push = std::nullopt;
+  std::optional<plan::FaultDisturbance> disturbance = std::nullopt;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< current centroid of the object, where
                                                        ///< the disturbance force acts
   /// Former pose of the object, drawn as a ghost.

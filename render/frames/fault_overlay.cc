@@ -32,12 +32,12 @@ constexpr double kFaultLeader = 1.6;
 // Lengths in object diameters.
 constexpr double kNormalLength = 0.2;
 constexpr double kPlaceRadius = 0.030;
-constexpr double kPushLength = 0.30;
+constexpr double kDisturbanceLength = 0.30;
 constexpr double kSpotRadius = 0.07;
 constexpr double kTwistRadius = 0.16;
 
 constexpr Color kGhost = {110, 118, 132};
-constexpr Color kPush = {118, 42, 151};
+constexpr Color kDisturbance = {118, 42, 151};
 
 constexpr int kRimPoints = 72;
 
@@ -198,18 +198,18 @@ class Overlay {
     if (!spot.text.empty()) Label(at, spot.text, kFaultRed, radius);
   }
 
-  void DrawPush(const plan::FaultPush& push, const Vector3d& centroid) {
+  void DrawDisturbance(const plan::FaultDisturbance& disturbance, const Vector3d& centroid) {
     const double D = frame_.diameter_m;
     const Vector2d centre = Project(centroid);
-    if (push.force_N.norm() > 0) {
-      const Vector3d along = push.force_N.normalized();
-      const Vector2d tip = Project(centroid + kPushLength * D * along);
-      DrawArrow(centre, tip, kPush, 3);
-      Label(tip, push.name, kPush);
+    if (disturbance.force_N.norm() > 0) {
+      const Vector3d along = disturbance.force_N.normalized();
+      const Vector2d tip = Project(centroid + kDisturbanceLength * D * along);
+      DrawArrow(centre, tip, kDisturbance, 3);
+      Label(tip, disturbance.name, kDisturbance);
       return;
     }
-    if (!(push.torque_Nm.norm() > 0)) return;
-    const auto [u, v] = Across(push.torque_Nm.normalized());
+    if (!(disturbance.torque_Nm.norm() > 0)) return;
+    const auto [u, v] = Across(disturbance.torque_Nm.normalized());
     std::vector<Vector2d> rim;
     for (int i = 0; i < kRimPoints; ++i) {
       const double turn = 2 * std::numbers::pi * i / kRimPoints;
@@ -217,8 +217,8 @@ class Overlay {
           Project(centroid + kTwistRadius * D * (std::cos(turn) * u + std::sin(turn) * v)));
     }
     const std::vector<Vector2d> arc = FreestArc(rim);
-    ArrowAlong(arc, kPush, 3);
-    Label(arc.front(), push.name, kPush);
+    ArrowAlong(arc, kDisturbance, 3);
+    Label(arc.front(), disturbance.name, kDisturbance);
   }
 
   /// Draw the heading at the top left, on as many lines as necessary.
@@ -453,8 +453,9 @@ std::vector<Vector3d> ExtentOf(const FaultMarks& marks, double diameter_m) {
   for (const auto& cone : marks.cones) points.push_back(cone.apex);
   for (const auto& tip : marks.fingertips) add_sphere(tip.centre, tip.radius);
   for (const auto& spot : marks.spots) add_sphere(spot.at, kSpotRadius * diameter_m);
-  if (marks.push && marks.push->force_N.norm() > 0) {
-    points.push_back(marks.centroid + kPushLength * diameter_m * marks.push->force_N.normalized());
+  if (marks.disturbance && marks.disturbance->force_N.norm() > 0) {
+    points.push_back(marks.centroid +
+                     kDisturbanceLength * diameter_m * marks.disturbance->force_N.normalized());
   }
   return points;
 }
@@ -477,7 +478,7 @@ std::vector<Obstacle> DrawFaultMarks(const CairoImage& image, const Camera& came
   for (const auto& place : marks.places) overlay.Draw(place);
   for (const auto& dimension : marks.dimensions) overlay.Draw(dimension);
   for (const auto& normal : marks.normals) overlay.Draw(normal);
-  if (marks.push) overlay.DrawPush(*marks.push, marks.centroid);
+  if (marks.disturbance) overlay.DrawDisturbance(*marks.disturbance, marks.centroid);
   overlay.DrawHeading(marks.heading);
   for (const FingerIndex finger : marks.fingers) {
     // Fingers of a hand are always in the image.

@@ -54,10 +54,10 @@ void ShadedMesh::Add(const std::array<Vector3d, 3>& corners,
   normals.push_back(corner_normals);
 }
 
-ShadedMesh MakeCone(double half_angle, double slant) {
+ShadedMesh MakeCone(double friction_angle, double slant) {
   ShadedMesh cone;
-  const double sine = std::sin(half_angle);
-  const double cosine = std::cos(half_angle);
+  const double sine = std::sin(friction_angle);
+  const double cosine = std::cos(friction_angle);
   const auto rim = [&](double i) -> Vector3d {
     const double angle = 2 * std::numbers::pi * i / kConeSegments;
     return slant * Vector3d(sine * std::cos(angle), sine * std::sin(angle), cosine);
@@ -74,10 +74,10 @@ ShadedMesh MakeCone(double half_angle, double slant) {
   return cone;
 }
 
-ShadedMesh MakeWedge(double half_angle, double slant) {
+ShadedMesh MakeWedge(double friction_angle, double slant) {
   ShadedMesh wedge;
-  const double x = slant * std::sin(half_angle);
-  const double z = slant * std::cos(half_angle);
+  const double x = slant * std::sin(friction_angle);
+  const double z = slant * std::cos(friction_angle);
   const std::array<Vector3d, 3> corners = {Vector3d::Zero(), Vector3d(x, 0, z), Vector3d(-x, 0, z)};
   const Vector3d low = kWedgeBottom * Vector3d::UnitY(), high = kWedgeTop * Vector3d::UnitY();
   const auto& [a, b, c] = corners;

@@ -21,13 +21,13 @@ struct ShadedMesh {
 [[nodiscard]] ShadedMesh TurnInsideOut(ShadedMesh mesh);
 
 /// Return a closed cone with its apex at the origin that opens along +z.
-/// @param half_angle  angle between axis and side, radians.
+/// @param friction_angle  angle between axis and side, radians.
 /// @param slant       length of the side.
-[[nodiscard]] ShadedMesh MakeCone(double half_angle, double slant);
+[[nodiscard]] ShadedMesh MakeCone(double friction_angle, double slant);
 
 /// Return a flat friction cone: a triangle in the plane y = 0 with its apex at the origin that
 /// opens along +z, as a thin closed plate at y > 0.
-[[nodiscard]] ShadedMesh MakeWedge(double half_angle, double slant);
+[[nodiscard]] ShadedMesh MakeWedge(double friction_angle, double slant);
 
 /// Return the surface of all points within `radius` of the segment from..to, which may be a point.
 [[nodiscard]] ShadedMesh MakeCapsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to,

@@ -247,15 +247,15 @@ void AddFinger(const FingerGlyph& glyph, const std::vector<ShadedMesh>& meshes,
 
 }  // namespace
 
-std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::Plan& located,
+std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::Plan& projected,
                                      plan::EntryIndex entry, const BodyOptions& options) {
   const BodyShape body = MakeBodyShape(object, options);
-  const NormalizedFrame frame = {located.scale * object.diameter(),
-                                 located.scale * object.mass_properties().centroid};
-  const std::vector<ShadedMesh> meshes = {MakeCone(located.half_angle, kConeLength),
+  const NormalizedFrame frame = {projected.scale * object.diameter(),
+                                 projected.scale * object.mass_properties().centroid};
+  const std::vector<ShadedMesh> meshes = {MakeCone(projected.friction_angle, kConeLength),
                                           MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
   std::vector<ScenePart> parts = {{"object", body.surface, kBodyOutside, kGlass}};
-  const plan::Snapshot snapshot = plan::MakePlannedSnapshot(located, entry, {}, 0);
+  const plan::Snapshot snapshot = plan::MakePlannedSnapshot(projected, entry, {}, 0);
   for (const FingerGlyph& glyph : MakeFingerGlyphs(snapshot, frame, body.rays)) {
     AddFinger(glyph, meshes, parts);
   }

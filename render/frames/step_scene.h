@@ -62,10 +62,10 @@ void AddRotationArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head,
 /// The object is translucent. Each finger has its fingertip sphere, stem and friction cone, and its
 /// arrow or track, as in frames but without forces. Names are "object", "finger 0", "finger 0 cone"
 /// and so on.
-/// @param located  plan with faces of this object (LocatePlan).
+/// @param located  plan with faces of this object (ProjectPlan).
 /// @param entry    index of the entry: 0 the initial grasp, k the k-th step.
 [[nodiscard]] std::vector<ScenePart> MakeStepScene(const object::Object& object,
-                                                   const plan::Plan& located,
+                                                   const plan::Plan& projected,
                                                    plan::EntryIndex entry,
                                                    const BodyOptions& options = {});
 

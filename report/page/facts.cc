@@ -20,7 +20,7 @@ constexpr char kLong[] = "digest";
 
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
-  const std::optional<grasp::RequiredHalfAngle>& required = report.steps.front().check.required;
+  const std::optional<grasp::RequiredFrictionAngle>& required = report.steps.front().check.required;
   facts.Add("Needs",
             required ? FormatRequiredDegrees(Degrees(required->upper)) + "°" : "none is enough");
   if (grasp.fingers.empty()) return;
@@ -38,8 +38,8 @@ void AddTrials(const sim::TrialSummary& trials, FactList& facts) {
 void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Diameter", LengthText(settings.diameter_m));
   facts.Add("Mass", NumberText(settings.mass_kg) + " kg");
-  facts.Add("Grasp force", SqueezeText(settings));
-  facts.Add("Disturbance", NumberText(100 * settings.shake) + " % of the grasp force");
+  facts.Add("Grasp force", GraspForceText(settings));
+  facts.Add("Disturbance", NumberText(100 * settings.disturbance_ratio) + " % of the grasp force");
   if (settings.protocol == sim::Protocol::kFixed) facts.Add("Protocol", "fixed grasp force");
   if (settings.hand) {
     const sim::HandTolerance& tolerance = settings.hand->tolerance;
@@ -67,8 +67,8 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
     facts.Add("Contacts", "at given points, at most " +
                               LengthText(*report.farthest_from_points * report.scale) + " off");
   }
-  facts.Add("Friction", FormatDegrees(Degrees(report.half_angle)) +
-                            " (μ = " + NumberText(std::tan(report.half_angle)) + ")");
+  facts.Add("Friction", FormatDegrees(Degrees(report.friction_angle)) +
+                            " (μ = " + NumberText(std::tan(report.friction_angle)) + ")");
   if (report.torsion > 0) {
     facts.Add("Soft fingers", "torsion " + LengthText(report.torsion * report.scale));
   }

@@ -10,7 +10,7 @@
 #include "report/page/step_plot.h"
 #include "report/page/step_table.h"
 #include "report/report_table.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/world/motion_monitor.h"
 
@@ -73,8 +73,8 @@ Element RequirementsRow(const ReportStep& step, bool both) {
   row.Add(NumberCell(need ? std::to_string(need->finger) : kNoFinding));
   row.Add(NumberCell(need ? FormatRequiredDegrees(Degrees(need->friction.required)) + "°"
                           : kNoFinding));
-  row.Add(NumberCell(Margin(step.replay->rest_margins)));
-  row.Add(NumberCell(Margin(step.replay->shake_margins)));
+  row.Add(NumberCell(Margin(step.replay->static_margins)));
+  row.Add(NumberCell(Margin(step.replay->disturbance_margins)));
   if (both)
     row.Add(NumberCell(step.replay->fixed ? ReasonText(step.replay->fixed->reason) : kNoFinding));
   return row;
@@ -99,48 +99,48 @@ std::vector<Element> WhatItTakes(const Report& report) {
            "its normal, as the replay measured it.")};
 }
 
-std::optional<double> Least(const ReportStep& step, double sim::DirectionStress::*route) {
-  if (!step.replay || step.skipped || step.replay->stress.empty()) return std::nullopt;
-  return 100 * std::ranges::min(step.replay->stress, {}, route).*route;
+std::optional<double> Least(const ReportStep& step, double sim::ResistedWrench::*route) {
+  if (!step.replay || step.skipped || step.replay->resisted_wrench.empty()) return std::nullopt;
+  return 100 * std::ranges::min(step.replay->resisted_wrench, {}, route).*route;
 }
 
-Element StressPlot(const Report& report) {
+Element ResistedWrenchPlot(const Report& report) {
   StepPlot plot;
   plot.title = "Largest disturbance that each static grasp resists in its weakest direction";
   plot.y_axis = "% of the grasp force";
   plot.series = {{"replay", {}, PlotMark::kDisc}, {"analysis", {}, PlotMark::kRing}};
   for (const ReportStep& step : report.steps) {
-    plot.series[0].values.push_back(Least(step, &sim::DirectionStress::replay));
-    plot.series[1].values.push_back(Least(step, &sim::DirectionStress::analysis));
+    plot.series[0].values.push_back(Least(step, &sim::ResistedWrench::replay));
+    plot.series[1].values.push_back(Least(step, &sim::ResistedWrench::analysis));
   }
-  plot.limit = PlotLimit{100 * report.settings->shake, "shake", false};
+  plot.limit = PlotLimit{100 * report.settings->disturbance_ratio, "shake", false};
   return Element(
       "div", {{"class", "plots"}},
       Figure({}, DrawStepPlot(plot), "The weakest direction of each static grasp.",
              "The largest disturbance that is resisted, in the replay and by analysis."));
 }
 
-Element StressRow(const ReportStep& step) {
+Element ResistedWrenchRow(const ReportStep& step) {
   Element row("tr", {}, NumberCell(std::to_string(step.check.index)));
-  for (const sim::DirectionStress& stress : step.replay->stress) {
-    row.Add(
-        NumberCell(NumberText(100 * stress.replay) + " | " + NumberText(100 * stress.analysis)));
+  for (const sim::ResistedWrench& resisted_wrench : step.replay->resisted_wrench) {
+    row.Add(NumberCell(NumberText(100 * resisted_wrench.replay) + " | " +
+                       NumberText(100 * resisted_wrench.analysis)));
   }
   return row;
 }
 
-std::vector<Element> Stress(const Report& report) {
-  if (!FindWeakestPush(report)) return {};
+std::vector<Element> ResistedWrenches(const Report& report) {
+  if (!FindWeakestDisturbance(report)) return {};
   std::vector<Element> head = {HeadCell("Step")};
-  for (const sim::Push& push : sim::PushDirections(report.dimension)) {
-    head.push_back(HeadCell(sim::PushName(push)));
+  for (const sim::Disturbance& disturbance : sim::DisturbanceDirections(report.dimension)) {
+    head.push_back(HeadCell(sim::DisturbanceName(disturbance)));
   }
   std::vector<Element> rows;
   for (const ReportStep* step : Replayed(report)) {
-    if (!step->replay->stress.empty()) rows.push_back(StressRow(*step));
+    if (!step->replay->resisted_wrench.empty()) rows.push_back(ResistedWrenchRow(*step));
   }
   std::vector<Element> found = {Element("h2", {}, "Largest disturbance")};
-  if (report.steps.size() > 1) found.push_back(StressPlot(report));
+  if (report.steps.size() > 1) found.push_back(ResistedWrenchPlot(report));
   found.push_back(ScrolledTable(head, rows));
   found.push_back(Note(
       "In percent of the grasp force, torques over half the diameter: the largest that each "
@@ -180,7 +180,7 @@ std::vector<Element> Limits(const Report& report) {
 
 std::vector<Element> MakeFindings(const Report& report) {
   std::vector<Element> findings = Disagreements(report);
-  for (const auto& part : {WhatItTakes(report), Stress(report), Limits(report)}) {
+  for (const auto& part : {WhatItTakes(report), ResistedWrenches(report), Limits(report)}) {
     findings.insert(findings.end(), part.begin(), part.end());
   }
   return findings;

@@ -76,16 +76,16 @@ class Page {
     if (failed_) return FailureStatement();
     const auto failure = DescribeFailure(report_);
     if (!failure) return StepsStatement();
-    return Capitalized(failure->what) + "." + WhyAndMend(failure->why, failure->mend) +
+    return Capitalized(failure->what) + "." + CauseAndFix(failure->why, failure->suggested_fix) +
            " In the nominal replay: " + StepsStatement();
   }
 
   [[nodiscard]] std::string StepsStatement() const {
     const sim::ReplaySettings& settings = *report_.settings;
     const std::string what =
-        " with " + FormatDegrees(Degrees(report_.half_angle)) +
+        " with " + FormatDegrees(Degrees(report_.friction_angle)) +
         " of friction, and in the replay the object resisted a force and a torque of " +
-        NumberText(100 * settings.shake) +
+        NumberText(100 * settings.disturbance_ratio) +
         " % of the grasp force along every axis, in both directions";
     if (report_.grasp) return "The grasp is force closure" + what + ".";
     const std::string steps = std::to_string(plan_.steps.size());
@@ -104,7 +104,7 @@ class Page {
     }
     text = Capitalized(text + failure.reason + ".");
     if (!failure.what.empty()) text += " " + Capitalized(failure.what) + ".";
-    text += WhyAndMend(failure.why, failure.mend) +
+    text += CauseAndFix(failure.why, failure.suggested_fix) +
             " For all causes and remedies, run regrasp validate --explain " + failure.reason + ".";
     const bool replayed = report_.steps[*failed_].replay.has_value();
     text +=
@@ -157,9 +157,9 @@ class Page {
     plot.title = "Margin to the friction cone, over the steps";
     plot.y_axis = "degrees";
     plot.series = {{"all grasps of the step", Values(&StepMeasures::margin_deg), PlotMark::kDisc}};
-    if (HasAny(&StepMeasures::rest_margin_deg)) {
+    if (HasAny(&StepMeasures::static_margin_deg)) {
       plot.series.push_back(
-          {"forces in static grasp", Values(&StepMeasures::rest_margin_deg), PlotMark::kRing});
+          {"forces in static grasp", Values(&StepMeasures::static_margin_deg), PlotMark::kRing});
     }
     plot.limit = PlotLimit{0, "", false};
     plot.failed = failed_;

@@ -91,8 +91,8 @@ std::optional<double> IfFinite(double value) {
 void AddReplay(const sim::StepReplay& replay, StepMeasures& measures) {
   measures.moved_m = IfFinite(replay.moved_m);
   measures.slip_m = IfFinite(replay.slip_m);
-  if (const auto margin = sim::SmallestMargin(replay.rest_margins)) {
-    measures.rest_margin_deg = IfFinite(Degrees(*margin));
+  if (const auto margin = sim::SmallestMargin(replay.static_margins)) {
+    measures.static_margin_deg = IfFinite(Degrees(*margin));
   }
 }
 
@@ -103,7 +103,7 @@ std::vector<StepMeasures> MeasureSteps(const Report& report) {
   for (const ReportStep& step : report.steps) {
     StepMeasures& measures = all.emplace_back();
     if (!step.skipped && step.check.required) {
-      measures.margin_deg = Degrees(report.half_angle - step.check.required->upper);
+      measures.margin_deg = Degrees(report.friction_angle - step.check.required->upper);
     }
     if (!step.skipped && step.replay) AddReplay(*step.replay, measures);
   }
@@ -118,8 +118,9 @@ std::string StepName(plan::EntryIndex index) {
   return index == 0 ? "the hold" : "step " + std::to_string(index);
 }
 
-std::string WhyAndMend(const std::string& why, const std::string& mend) {
-  return (why.empty() ? "" : " Why: " + why + ".") + (mend.empty() ? "" : " Help: " + mend + ".");
+std::string CauseAndFix(const std::string& why, const std::string& suggested_fix) {
+  return (why.empty() ? "" : " Why: " + why + ".") +
+         (suggested_fix.empty() ? "" : " Help: " + suggested_fix + ".");
 }
 
 std::string Capitalized(std::string text) {
@@ -195,7 +196,7 @@ std::vector<Element> MakeFingerTable(const Report& report) {
     const grasp::FingerFriction& finger = report.grasp->fingers[i];
     rows.emplace_back("tr", Attributes(), NumberCell(std::to_string(i)),
                       NumberCell(FormatRequiredDegrees(Degrees(finger.required)) + "°"),
-                      NumberCell(FormatDegrees(Degrees(report.half_angle - finger.required))),
+                      NumberCell(FormatDegrees(Degrees(report.friction_angle - finger.required))),
                       NumberCell(DegreesOr(finger.without, "none")));
   }
   return {

@@ -51,7 +51,7 @@ struct StepMeasures {
   std::optional<double> margin_deg;
   /// Force margin in the static grasp after the step, degrees: friction angle minus the largest
   /// angle between the force of a holding finger and its normal.
-  std::optional<double> rest_margin_deg;
+  std::optional<double> static_margin_deg;
 };
 
 [[nodiscard]] std::vector<StepMeasures> MeasureSteps(const Report& report);
@@ -63,7 +63,7 @@ struct StepMeasures {
 [[nodiscard]] std::string StepName(plan::EntryIndex index);
 
 /// Return the sentences on cause and remedy of a failure, each after a space; empty without them.
-[[nodiscard]] std::string WhyAndMend(const std::string& why, const std::string& mend);
+[[nodiscard]] std::string CauseAndFix(const std::string& why, const std::string& suggested_fix);
 
 /// Return the text with an upper-case first letter if that is an ASCII letter.
 [[nodiscard]] std::string Capitalized(std::string text);

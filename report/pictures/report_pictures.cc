@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/snapshot.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/overview_image.h"
@@ -67,7 +67,7 @@ Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const Re
   const double radius = report.settings ? report.settings->fingertip_radius_m : 0;
   plan::Fault fault = step.fault();
   plan::Snapshot snapshot = seen ? step.replay->snapshot
-                                 : plan::MakePlannedSnapshot(plan::LocatePlan(object, plan),
+                                 : plan::MakePlannedSnapshot(plan::ProjectPlan(object, plan),
                                                              step.check.index, fault, radius);
   if (hand != nullptr) hand->Place(step.check.index, snapshot, fault);
   render::FaultScene picture =
@@ -134,7 +134,7 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
   }
   options.finger_radius = report.finger_radius;
   options.has_heading = !report.steps_passed();
-  return {object, report.scale, report.half_angle, snapshots, options};
+  return {object, report.scale, report.friction_angle, snapshots, options};
 }
 
 }  // namespace

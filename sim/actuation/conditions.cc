@@ -189,7 +189,7 @@ const std::vector<HandCondition>& StandardConditions() {
 
 HandReplayOptions OptionsUnder(const HandCondition& condition, const HandReplayOptions& nominal) {
   HandReplayOptions options = nominal;
-  options.shake = 0;
+  options.disturbance_ratio = 0;
   options.freeze_s = 0;
   options.to_end = true;
   Apply({condition.changes, condition.name}, condition.changes, options);

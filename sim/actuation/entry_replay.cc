@@ -15,8 +15,8 @@
 #include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/sliding_tips.h"
-#include "sim/actuation/torque_squeeze.h"
-#include "sim/measure/shake.h"
+#include "sim/actuation/torque_grasp_force.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/scaling.h"
 
@@ -31,8 +31,8 @@ using plan::HandState;
 constexpr double kTakeHold = 0.3;
 constexpr double kHandover = 0.25;
 constexpr double kSettle = 0.3;
-constexpr double kHandPushRamp = 0.05;
-constexpr double kPushHold = 0.1;
+constexpr double kHandDisturbanceRamp = 0.05;
+constexpr double kDisturbanceHold = 0.1;
 // A finger approaches along the normal from this height (metres) until it touches.
 constexpr double kHeight = 8e-3;
 constexpr double kDescent = 0.02;  // m/s
@@ -90,7 +90,7 @@ EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, cons
     : world_(world),
       plan_(plan),
       squeezes_(std::move(squeezes)),
-      shake_(options.shake),
+      disturbance_force_(options.disturbance_ratio),
       freeze_s_(options.freeze_s),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
@@ -124,7 +124,7 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
     // engine normalizes quaternions whenever it is restored.
     world_.Restore(rest_);
     Freeze();
-    Shake();
+    ApplyDisturbances();
   } catch (const StepFails&) {
     has_ended_ = true;
     step.snapshot = SnapshotNow();
@@ -139,8 +139,8 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
 }
 
 void EntryReplay::Perform(plan::EntryIndex index) {
-  squeeze_ = squeezes_[index];
-  squeeze_before_ = index == 0 ? 0 : squeezes_[index - 1];
+  grasp_force_ = squeezes_[index];
+  grasp_force_before_ = index == 0 ? 0 : squeezes_[index - 1];
   if (index == 0) {
     TakeHold();
     return;
@@ -154,7 +154,7 @@ void EntryReplay::Perform(plan::EntryIndex index) {
 void EntryReplay::Describe(StepReplay& step) const {
   const HandMeasures& measures = monitor_.measures();
   step.hand = measures;
-  step.hand->squeeze_N = squeeze_;
+  step.hand->grasp_force_N = grasp_force_;
   step.displacement_m = measures.off_m;
   step.rotation_deg = Degrees(measures.off_rad);
   step.moved_m = measures.off_m + radius_ * measures.off_rad;
@@ -204,7 +204,7 @@ void EntryReplay::Run(double seconds, const OnTick& on_tick) {
   for (int i = 1; i <= steps; ++i) {
     on_tick(static_cast<double>(i) / steps);
     Tick();
-    if (observer_.on_time_step && !shaking_) observer_.on_time_step(world_);
+    if (observer_.on_time_step && !disturbing_) observer_.on_time_step(world_);
   }
 }
 
@@ -219,7 +219,7 @@ void EntryReplay::TakeHold() {
   for (const plan::FingerContact& held : plan_.initial) holding_.push_back(held.finger);
   monitor_.WatchContacts(plan_.initial, plan_.scale, start_off_);
   EndIfFailed();
-  const Hold all = HeldWith(squeeze_);
+  const Hold all = HeldWith(grasp_force_);
   Run(kTakeHold, [&](double share) { control_.SetHolding({all, all, 1, share}); });
   world_.PinObject(false);
   control_.SetFeedback(true);
@@ -232,7 +232,7 @@ void EntryReplay::Move(const plan::HandPath& path) {
   const double duration = timed.duration();
   Run(duration, [&](double share) {
     state_ = timed.At(share * duration);
-    control_.SetHolding({HeldWith(squeeze_before_), HeldWith(squeeze_), share, 1});
+    control_.SetHolding({HeldWith(grasp_force_before_), HeldWith(grasp_force_), share, 1});
   });
 }
 
@@ -245,7 +245,7 @@ void EntryReplay::Switch(const plan::Switch& change) {
   if (!change.place.empty()) PlaceFingers(change);
   monitor_.SetPhase("while forces are handed over");
   for (const FingerIndex f : change.release) monitor_.SetHolding(f, false);
-  HandOver(HeldWith(squeeze_before_), {after, squeeze_});
+  HandOver(HeldWith(grasp_force_before_), {after, grasp_force_});
   for (const FingerIndex f : after) {
     if (std::ranges::find(holding_, f) == holding_.end()) monitor_.SetHolding(f, true);
   }
@@ -259,12 +259,12 @@ void EntryReplay::HandOver(const Hold& from, const Hold& to) {
 }
 
 void EntryReplay::Align(const plan::Align& align) {
-  Hold hold = HeldWith(squeeze_before_);
+  Hold hold = HeldWith(grasp_force_before_);
   for (std::size_t i = 0; i + 1 < align.waypoints.size(); ++i) {
     Slide(align.waypoints[i], align.waypoints[i + 1], (*align.motion)[i], hold);
   }
   monitor_.SetPhase("while forces are handed over");
-  ChangeSliding(align.waypoints.back(), hold, HeldWith(squeeze_));
+  ChangeSliding(align.waypoints.back(), hold, HeldWith(grasp_force_));
 }
 
 void EntryReplay::ChangeSliding(const plan::FingerGrasp& at, Hold& hold, const Hold& to) {
@@ -285,7 +285,7 @@ void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& 
   const TimedPath timed(path, CarryingSpeed(world_));
   const SlidingTips tips(control_, world_.hand(), timed, from, to);
   if (tips.empty()) return;
-  const Hold sliding = {holding_, hold.squeeze_N, tips.At(0)};
+  const Hold sliding = {holding_, hold.grasp_force_N, tips.At(0)};
   const bool is_held = control_.SlidingMargin(sliding, to) > kHeldBySome;
   const std::string unheld = "while a finger slides that the others cannot balance";
   const auto lead = [&](double share) {
@@ -420,20 +420,21 @@ void EntryReplay::Freeze() {
   world_.Restore(rest_);
 }
 
-void EntryReplay::Shake() {
-  const double shake = shake_ * squeeze_;
-  if (shake == 0 || monitor_.violation()) return;
-  shaking_ = true;
+void EntryReplay::ApplyDisturbances() {
+  const double disturbance_ratio = disturbance_force_ * grasp_force_;
+  if (disturbance_ratio == 0 || monitor_.violation()) return;
+  disturbing_ = true;
   const HandControl control = control_;
   const ExecutionMonitor monitor = monitor_;
-  for (const Push& push : PushDirections(3)) {
-    const std::string name = PushText(push, shake, radius_);
+  for (const Disturbance& disturbance : DisturbanceDirections(3)) {
+    const std::string name = DisturbanceText(disturbance, disturbance_ratio, radius_);
     monitor_.SetPhase("under " + name);
-    const grasp::Wrench wrench = PushWrench(push, shake);
+    const grasp::Wrench wrench = DisturbanceWrench(disturbance, disturbance_ratio);
     const Vector3d torque = radius_ * wrench.torque_over_radius;
-    monitor_.SetPush({wrench.force, torque, name});
-    Run(kHandPushRamp, [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
-    Run(kPushHold, [](double) {});
+    monitor_.SetDisturbance({wrench.force, torque, name});
+    Run(kHandDisturbanceRamp,
+        [&](double share) { world_.SetLoad(share * wrench.force, share * torque); });
+    Run(kDisturbanceHold, [](double) {});
     monitor_.WatchRest(state_.pose);
     if (monitor_.violation()) throw StepFails();
     world_.SetLoad(Vector3d::Zero(), Vector3d::Zero());
@@ -441,7 +442,7 @@ void EntryReplay::Shake() {
     control_.CopyState(control);
     monitor_.CopyState(monitor);
   }
-  shaking_ = false;
+  disturbing_ = false;
 }
 
 }  // namespace regrasp::sim

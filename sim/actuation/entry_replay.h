@@ -41,7 +41,7 @@ class EntryReplay {
 
   void Perform(plan::EntryIndex index);
   /// Return the present holding fingers with a grasp force.
-  [[nodiscard]] Hold HeldWith(double squeeze) const { return {holding_, squeeze}; }
+  [[nodiscard]] Hold HeldWith(double grasp_force) const { return {holding_, grasp_force}; }
   void Describe(StepReplay& step) const;
   /// Return the state in the object's frame, for images.
   [[nodiscard]] plan::Snapshot SnapshotNow() const;
@@ -71,12 +71,12 @@ class EntryReplay {
   /// Keep all controls constant for a while, and return to the static grasp.
   void Freeze();
   /// Apply disturbances in twelve directions, each from the same static grasp.
-  void Shake();
+  void ApplyDisturbances();
 
   HandWorld& world_;
   const plan::Plan& plan_;
   std::vector<double> squeezes_;  ///< grasp force of the static grasp after each entry, newtons
-  double shake_;                  ///< disturbance force over grasp force
+  double disturbance_force_;      ///< disturbance force over grasp force
   double freeze_s_;               ///< HandReplayOptions::freeze_s
   double radius_;                 ///< half the object's diameter, metres
   double start_off_;              ///< upper bound on the initial offset of the object's points
@@ -84,13 +84,13 @@ class EntryReplay {
   ExecutionMonitor monitor_;
   HandControl control_;
   plan::HandState state_;             ///< present planned state
-  double squeeze_before_ = 0;         ///< grasp force before the present entry, newtons
-  double squeeze_ = 0;                ///< grasp force after it
+  double grasp_force_before_ = 0;     ///< grasp force before the present entry, newtons
+  double grasp_force_ = 0;            ///< grasp force after it
   std::vector<FingerIndex> holding_;  ///< holding fingers of the last static grasp
   HandWorld::State rest_;             ///< last static grasp
   bool to_end_;
   bool has_ended_ = false;
-  bool shaking_ = false;
+  bool disturbing_ = false;
 };
 
 }  // namespace regrasp::sim

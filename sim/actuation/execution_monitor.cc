@@ -53,7 +53,7 @@ void ExecutionMonitor::Start() {
 
 void ExecutionMonitor::CopyState(const ExecutionMonitor& other) {
   phase_ = other.phase_;
-  push_ = other.push_;
+  disturbance_ = other.disturbance_;
   fingers_ = other.fingers_;
   measures_ = other.measures_;
   violation_ = other.violation_;
@@ -71,9 +71,9 @@ void ExecutionMonitor::WatchContacts(const plan::FingerGrasp& grasp, double scal
                                        std::abs(near->distance - radius))
                             : std::numeric_limits<double>::infinity();
     // A hand places a fingertip only as well as it measures its joints.
-    const Vector3d measured =
-        kinematics::TipAt(world_.hand().fingers[held.finger], world_.measured_posture(held.finger))
-            .centre;
+    const Vector3d measured = kinematics::TipAt(world_.hand().fingers[held.finger],
+                                                world_.measured_configuration(held.finger))
+                                  .centre;
     const double unknown = (measured - world_.tip(held.finger)).norm();
     if (off <= tolerance_.slip_m + known_off + unknown) continue;
     const std::string how = std::isfinite(off) ? FormatLength(off) + " from" : "far from";
@@ -103,7 +103,7 @@ void ExecutionMonitor::Fail(Reason reason, const std::string& what, Marks marks)
   violation.reason = reason;
   violation.detail = what + (phase_.empty() ? "" : " " + phase_);
   violation.fault.fingers = std::move(marks.fingers);
-  violation.fault.push = push_;
+  violation.fault.disturbance = disturbance_;
   plan::HandFaultPlace& place = violation.fault.hand.emplace();
   place.state = world_.state();
   place.links = std::move(marks.links);
@@ -232,7 +232,7 @@ ExecutionMonitor::Marks ExecutionMonitor::MarksOfJoint(FingerIndex f, int joint,
   return {std::move(number),
           {f},
           {{f, joint + 1}},
-          kinematics::FramesOf(chain, world_.posture(f))[joint].translation()};
+          kinematics::FramesOf(chain, world_.configuration(f))[joint].translation()};
 }
 
 void ExecutionMonitor::WatchJoints(FingerIndex f) {
@@ -263,9 +263,10 @@ void ExecutionMonitor::WatchCouplings() {
 }
 
 std::vector<HandLinks::Placed> ExecutionMonitor::PlaceLinks() const {
-  std::vector<kinematics::Posture> postures;
-  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) postures.push_back(world_.posture(f));
-  return world_.links().Place(world_.hand(), postures);
+  std::vector<kinematics::JointConfiguration> configurations;
+  for (FingerIndex f{0}; f < std::ssize(fingers_); ++f)
+    configurations.push_back(world_.configuration(f));
+  return world_.links().Place(world_.hand(), configurations);
 }
 
 std::string ExecutionMonitor::LinkText(const HandLinks::Placed& placed) const {

@@ -28,7 +28,7 @@ class ExecutionMonitor {
   /// Set the phase of the step that violations name: "during the move".
   void SetPhase(std::string phase) { phase_ = std::move(phase); }
   /// Set the disturbance that violations name from now on.
-  void SetPush(plan::FaultPush push) { push_ = std::move(push); }
+  void SetDisturbance(plan::FaultDisturbance disturbance) { disturbance_ = std::move(disturbance); }
   /// Check that fingers are at these contacts.
   /// @param known_off  additional allowed distance, metres.
   void WatchContacts(const plan::FingerGrasp& grasp, double scale, double known_off = 0);
@@ -102,7 +102,7 @@ class ExecutionMonitor {
   std::shared_ptr<const Penetration> object_;  ///< copies share it
   HandTolerance tolerance_;
   std::string phase_;
-  std::optional<plan::FaultPush> push_;
+  std::optional<plan::FaultDisturbance> disturbance_;
   std::vector<Finger> fingers_;
   HandMeasures measures_;
   std::optional<Violation> violation_;

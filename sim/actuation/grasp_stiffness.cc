@@ -28,10 +28,11 @@ struct LinkJacobian {
   Matrix3Xd turn;   ///< angular velocity
 };
 
-LinkJacobian JacobianAt(const kinematics::Finger& finger, const kinematics::Posture& posture,
+LinkJacobian JacobianAt(const kinematics::Finger& finger,
+                        const kinematics::JointConfiguration& configuration,
                         const Vector3d& place) {
   LinkJacobian jacobian{Matrix3Xd::Zero(3, finger.drives), Matrix3Xd::Zero(3, finger.drives)};
-  const kinematics::JointFrames frames = kinematics::FramesOf(finger, posture);
+  const kinematics::JointFrames frames = kinematics::FramesOf(finger, configuration);
   for (std::size_t k = 0; k < finger.joints.size(); ++k) {
     const kinematics::Joint& joint = finger.joints[k];
     const Vector3d axis = joint.ratio * (frames[k].linear() * joint.axis);
@@ -47,8 +48,8 @@ MatrixXd TorqueChange(const StiffFinger& given) {
   const int drives = given.finger->drives;
   MatrixXd change(drives, drives);
   for (int k = 0; k < drives; ++k) {
-    kinematics::Posture up = given.posture;
-    kinematics::Posture down = given.posture;
+    kinematics::JointConfiguration up = given.configuration;
+    kinematics::JointConfiguration down = given.configuration;
     up[k] += kJointStep;
     down[k] -= kJointStep;
     const Matrix3Xd difference = JacobianAt(*given.finger, up, given.contact).point -
@@ -62,7 +63,7 @@ MatrixXd TorqueChange(const StiffFinger& given) {
 Eigen::Matrix<double, 6, 6> WrenchChange(const StiffFinger& given, const Vector3d& centroid) {
   const int n = given.finger->drives;
   const double radius = given.finger->tip.radius;
-  const LinkJacobian at = JacobianAt(*given.finger, given.posture, given.contact);
+  const LinkJacobian at = JacobianAt(*given.finger, given.configuration, given.contact);
   const Vector3d to_contact = radius * given.inward;
   const Matrix3Xd centre = at.point + CrossMatrix(to_contact) * at.turn;
   const Matrix3d arm = CrossMatrix(given.contact - centroid);

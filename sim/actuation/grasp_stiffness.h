@@ -10,7 +10,7 @@ namespace regrasp::sim {
 /// Finger that presses on an object with servos at constant targets, in the palm's frame.
 struct StiffFinger {
   const kinematics::Finger* finger = nullptr;
-  kinematics::Posture posture;
+  kinematics::JointConfiguration configuration;
   Eigen::VectorXd stiffness;  ///< stiffness of the servo of each independent joint, N m/rad, > 0
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< metres
   Eigen::Vector3d inward = Eigen::Vector3d::Zero();   ///< normal into the object, a unit vector

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using kinematics::Posture;
+using kinematics::JointConfiguration;
 
 /// Gains of the integrals of the deviations that the camera and the fingertips measure, 1/s. With a
 /// crossover at 3 rad/s a delay of 0.08 s costs 14° of the phase margin of 90°.
@@ -46,12 +46,13 @@ Vector3d Limited(const Vector3d& vector, double most) {
 
 }  // namespace
 
-Posture PostureOf(const kinematics::Finger& finger, const std::vector<double>& angles) {
-  Posture posture(finger.drives);
+JointConfiguration ConfigurationOf(const kinematics::Finger& finger,
+                                   const std::vector<double>& angles) {
+  JointConfiguration configuration(finger.drives);
   for (std::size_t k = 0; k < angles.size(); ++k) {
-    posture[finger.joints[k].drive] = kinematics::DriveAngle(finger.joints[k], angles[k]);
+    configuration[finger.joints[k].drive] = kinematics::DriveAngle(finger.joints[k], angles[k]);
   }
-  return posture;
+  return configuration;
 }
 
 HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, double scale,
@@ -65,8 +66,8 @@ HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, doub
       planned_(world.state()) {
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     fingers_.push_back({});
-    fingers_.back().target = world.measured_posture(f);
-    fingers_.back().offset = Posture::Zero(fingers_.back().target.size());
+    fingers_.back().target = world.measured_configuration(f);
+    fingers_.back().offset = JointConfiguration::Zero(fingers_.back().target.size());
     fingers_.back().rate = fingers_.back().offset;
   }
 }
@@ -74,26 +75,28 @@ HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, doub
 void HandControl::Steer(const plan::HandState& planned) {
   const double most = kFastest * world_.timestep();
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
-    const Posture before = PlannedPosture(f);
-    const Posture change = PostureOf(world_.hand().fingers[f], planned.joints[f]) - before;
+    const JointConfiguration before = PlannedConfiguration(f);
+    const JointConfiguration change =
+        ConfigurationOf(world_.hand().fingers[f], planned.joints[f]) - before;
     fingers_[f].rate = change.cwiseMax(-most).cwiseMin(most) / world_.timestep();
   }
   planned_ = planned;
 }
 
-Posture HandControl::PlannedPosture(FingerIndex finger) const {
-  return PostureOf(world_.hand().fingers[finger], planned_.joints[finger]);
+JointConfiguration HandControl::PlannedConfiguration(FingerIndex finger) const {
+  return ConfigurationOf(world_.hand().fingers[finger], planned_.joints[finger]);
 }
 
 Matrix3d HandControl::TipTurn(FingerIndex finger) const {
   const kinematics::Finger& chain = world_.hand().fingers[finger];
-  const kinematics::JointFrames frames = kinematics::FramesOf(chain, sensors_.posture(finger));
+  const kinematics::JointFrames frames =
+      kinematics::FramesOf(chain, sensors_.configuration(finger));
   return planned_.pose.linear().transpose() * frames.back().linear();
 }
 
 Vector3d HandControl::TipInObject(FingerIndex finger) const {
   const kinematics::Finger& chain = world_.hand().fingers[finger];
-  return planned_.pose.inverse() * kinematics::TipAt(chain, sensors_.posture(finger)).centre;
+  return planned_.pose.inverse() * kinematics::TipAt(chain, sensors_.configuration(finger)).centre;
 }
 
 double HandControl::GapOf(FingerIndex finger) const {
@@ -136,7 +139,7 @@ void HandControl::Detach(FingerIndex finger) {
   Finger& state = fingers_[finger];
   state.mode = Mode::kFree;
   state.keeps_offset = true;
-  state.offset = state.target - PlannedPosture(finger);
+  state.offset = state.target - PlannedConfiguration(finger);
 }
 
 void HandControl::LetOffsetGo(FingerIndex finger) { fingers_[finger].keeps_offset = false; }
@@ -218,7 +221,7 @@ void HandControl::IntegrateTips() {
   for (int i = 0; i < std::ssize(held); ++i) {
     const kinematics::Finger& chain = world_.hand().fingers[held[i]];
     planned.col(i) = planned_.pose * fingers_[held[i]].anchor.centre_O;
-    measured.col(i) = kinematics::TipAt(chain, sensors_.posture(held[i])).centre;
+    measured.col(i) = kinematics::TipAt(chain, sensors_.configuration(held[i])).centre;
   }
   const Isometry3d back(Eigen::umeyama(measured, planned, false));
   const Vector3d centre = planned_.pose * world_.centroid_O();
@@ -257,14 +260,14 @@ grasp::GraspForces HandControl::PlannedForces(const grasp::Grasp& contacts,
   }
   const Matrix3d turn = planned_.pose.linear();
   const Vector3d down = -settings_.weight_N * (turn.transpose() * world_.hand().up);
-  const double angle = settings_.half_angle;
+  const double angle = settings_.friction_angle;
   const auto plan = [&](double normal) {
     return grasp::ComputeSlidingForces(contacts, sliding, solid_.wrench_frame(),
                                        {std::tan(angle), angle}, {down, Vector3d::Zero()},
-                                       hold.squeeze_N, normal);
+                                       hold.grasp_force_N, normal);
   };
   if (sliding.empty()) return plan(0);
-  const double most = kMostSliding * hold.squeeze_N / static_cast<double>(sliding.size());
+  const double most = kMostSliding * hold.grasp_force_N / static_cast<double>(sliding.size());
   const auto margin = [&](double normal) { return plan(normal).margin; };
   return plan(grasp::ChooseSlidingNormal(std::min(kTouchForce, most), most, margin).normal);
 }
@@ -307,9 +310,9 @@ void HandControl::FollowTip(FingerIndex finger) {
   const auto& J = tip.jacobian;
   const Matrix3d inverse =
       (J * J.transpose() + kDamping * kDamping * Matrix3d::Identity()).inverse();
-  const Posture pull = kPull * (PlannedPosture(finger) - state.target);
+  const JointConfiguration pull = kPull * (PlannedConfiguration(finger) - state.target);
   const Vector3d way = wanted - tip.centre;
-  const Posture change = pull + J.transpose() * (inverse * (way - J * pull));
+  const JointConfiguration change = pull + J.transpose() * (inverse * (way - J * pull));
   state.target = (state.target + change).cwiseMax(chain.lower).cwiseMin(chain.upper);
 }
 
@@ -335,7 +338,7 @@ void HandControl::Step() {
     Finger& finger = fingers_[f];
     if (finger.mode == Mode::kFree) {
       if (!finger.keeps_offset) finger.offset *= 1 - world_.timestep() / kOffsetTime;
-      finger.target = PlannedPosture(f) + finger.offset;
+      finger.target = PlannedConfiguration(f) + finger.offset;
     } else {
       FollowTip(f);
     }

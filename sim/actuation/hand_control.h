@@ -17,8 +17,8 @@ namespace regrasp::sim {
 
 /// Settings of the controller of a hand, described in docs/validation.md.
 struct HandControlSettings {
-  double half_angle = 0;  ///< friction angle for planned forces, radians
-  double weight_N = 0;    ///< assumed weight of the object
+  double friction_angle = 0;  ///< friction angle for planned forces, radians
+  double weight_N = 0;        ///< assumed weight of the object
   HandSensing sensing = {};
 };
 
@@ -33,7 +33,7 @@ struct SlidingFinger {
 /// The fingers whose forces hold the object.
 struct Hold {
   std::vector<FingerIndex> fingers;
-  double squeeze_N = 0;                     ///< grasp force: sum of their normal forces
+  double grasp_force_N = 0;                 ///< grasp force: sum of their normal forces
   std::vector<SlidingFinger> sliding = {};  ///< those of the fingers that slide
 
   bool operator==(const Hold&) const = default;
@@ -48,8 +48,8 @@ struct HoldingFingers {
 };
 
 /// Return the joint configuration of a finger from the angles of its joints.
-[[nodiscard]] kinematics::Posture PostureOf(const kinematics::Finger& finger,
-                                            const std::vector<double>& angles);
+[[nodiscard]] kinematics::JointConfiguration ConfigurationOf(const kinematics::Finger& finger,
+                                                             const std::vector<double>& angles);
 
 /// Executes a plan with a hand, from joint and touch sensors and a slow, late measured object pose.
 /// Every millisecond the servo of each joint receives a target and an additional torque:
@@ -140,9 +140,9 @@ class HandControl {
     Anchor anchor;
     Eigen::Vector3d led_O = Eigen::Vector3d::Zero();  ///< target of a fingertip that is led
     Eigen::Vector3d bias = Eigen::Vector3d::Zero();   ///< offset of its target when it was attached
-    kinematics::Posture target;
-    kinematics::Posture offset;  ///< offset of a free finger from the planned joints
-    kinematics::Posture rate;    ///< speed of the planned joints, per second
+    kinematics::JointConfiguration target;
+    kinematics::JointConfiguration offset;  ///< offset of a free finger from the planned joints
+    kinematics::JointConfiguration rate;    ///< speed of the planned joints, per second
     bool keeps_offset = false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< point of application of the force
@@ -150,7 +150,7 @@ class HandControl {
 
   /// Command of a finger's servos.
   struct Command {
-    kinematics::Posture target;
+    kinematics::JointConfiguration target;
     Eigen::VectorXd torques;
   };
 
@@ -175,7 +175,7 @@ class HandControl {
   [[nodiscard]] grasp::GraspForces PlannedForces(const grasp::Grasp& contacts,
                                                  const Hold& hold) const;
   [[nodiscard]] std::vector<Eigen::Vector3d> ForcesOf(const Hold& all) const;
-  [[nodiscard]] kinematics::Posture PlannedPosture(FingerIndex finger) const;
+  [[nodiscard]] kinematics::JointConfiguration PlannedConfiguration(FingerIndex finger) const;
   [[nodiscard]] Eigen::VectorXd TorquesOf(FingerIndex finger) const;
   void FollowTip(FingerIndex finger);
   /// Return the object pose whose tracking brings the object to the planned pose.

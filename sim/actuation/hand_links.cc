@@ -95,10 +95,11 @@ void HandLinks::FindPairs(const HandModel& hand) {
 }
 
 std::vector<HandLinks::Placed> HandLinks::Place(
-    const HandModel& hand, const std::vector<kinematics::Posture>& postures) const {
+    const HandModel& hand,
+    const std::vector<kinematics::JointConfiguration>& configurations) const {
   std::vector<kinematics::JointFrames> frames;
   for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
-    frames.push_back(kinematics::FramesOf(hand.fingers[i], postures[i]));
+    frames.push_back(kinematics::FramesOf(hand.fingers[i], configurations[i]));
   }
   std::vector<Placed> placed;
   placed.reserve(links_.size());

@@ -38,8 +38,9 @@ class HandLinks {
 
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
   /// Return all links, in order, at the joint configurations of the fingers.
-  [[nodiscard]] std::vector<Placed> Place(const kinematics::HandModel& hand,
-                                          const std::vector<kinematics::Posture>& postures) const;
+  [[nodiscard]] std::vector<Placed> Place(
+      const kinematics::HandModel& hand,
+      const std::vector<kinematics::JointConfiguration>& configurations) const;
   /// Return whether two links of one Place may touch.
   /// Neighbours along a finger may, and links that are near each other in the reference
   /// configuration.

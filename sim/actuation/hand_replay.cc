@@ -15,7 +15,7 @@
 #include "planner/plan/plan.h"
 #include "sim/actuation/entry_replay.h"
 #include "sim/actuation/hand_world.h"
-#include "sim/actuation/torque_squeeze.h"
+#include "sim/actuation/torque_grasp_force.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::sim {
@@ -38,17 +38,18 @@ void Open(const kinematics::HandModel& hand, const plan::FingerGrasp& grasp, Han
   constexpr double kDamping = 2e-3;  // metres
   for (const plan::FingerContact& held : grasp) {
     const kinematics::Finger& chain = hand.fingers[held.finger];
-    kinematics::Posture posture = PostureOf(chain, state.joints[held.finger]);
+    kinematics::JointConfiguration configuration =
+        ConfigurationOf(chain, state.joints[held.finger]);
     const Vector3d outward = -(state.pose.linear() * held.contact.n);
-    const Vector3d wanted = kinematics::TipAt(chain, posture).centre + kOpening * outward;
+    const Vector3d wanted = kinematics::TipAt(chain, configuration).centre + kOpening * outward;
     for (int i = 0; i < kIterations; ++i) {
-      const kinematics::TipState tip = kinematics::TipAt(chain, posture);
+      const kinematics::TipState tip = kinematics::TipAt(chain, configuration);
       const Eigen::Matrix3d damped = tip.jacobian * tip.jacobian.transpose() +
                                      kDamping * kDamping * Eigen::Matrix3d::Identity();
-      posture += tip.jacobian.transpose() * damped.ldlt().solve(wanted - tip.centre);
-      posture = posture.cwiseMax(chain.lower).cwiseMin(chain.upper);
+      configuration += tip.jacobian.transpose() * damped.ldlt().solve(wanted - tip.centre);
+      configuration = configuration.cwiseMax(chain.lower).cwiseMin(chain.upper);
     }
-    state.joints[held.finger] = kinematics::JointAngles(chain, posture);
+    state.joints[held.finger] = kinematics::JointAngles(chain, configuration);
   }
 }
 
@@ -71,11 +72,12 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
                           const plan::Plan& plan, const std::vector<double>& squeezes,
                           const HandReplayOptions& options) {
   ReplaySettings s;
-  s.mu = std::tan(plan.half_angle);
+  s.mu = std::tan(plan.friction_angle);
   s.mass_kg = *options.mass_kg;
-  s.squeeze_N = *std::ranges::max_element(squeezes);
-  s.squeeze_source = options.squeeze_N ? SqueezeSource::kGiven : SqueezeSource::kTorques;
-  s.shake = options.shake;
+  s.grasp_force_N = *std::ranges::max_element(squeezes);
+  s.grasp_force_source =
+      options.grasp_force_N ? GraspForceSource::kGiven : GraspForceSource::kTorques;
+  s.disturbance_ratio = options.disturbance_ratio;
   s.protocol = Protocol::kFixed;
   s.gravity_m_s2 = kGravity;
   s.diameter_m = plan.scale * solid.diameter();
@@ -110,13 +112,13 @@ HandReplayOptions WithMass(HandReplayOptions options, const object::Polyhedron& 
 }
 
 /// Return the errors of the joint sensors, by finger.
-std::vector<kinematics::Posture> JointErrors(const kinematics::HandModel& hand,
-                                             const HandSensing& sensing) {
-  std::vector<kinematics::Posture> errors = sensing.joint_offsets;
+std::vector<kinematics::JointConfiguration> JointErrors(const kinematics::HandModel& hand,
+                                                        const HandSensing& sensing) {
+  std::vector<kinematics::JointConfiguration> errors = sensing.joint_offsets;
   if (sensing.joint_bias_rad == 0) return errors;
   for (std::size_t f = 0; f < hand.fingers.size(); ++f) {
     const int drives = hand.fingers[f].drives;
-    if (f >= errors.size()) errors.emplace_back(kinematics::Posture::Zero(drives));
+    if (f >= errors.size()) errors.emplace_back(kinematics::JointConfiguration::Zero(drives));
     RandomStream random(sensing.seed, RandomUse::kJointErrors, f);
     for (double& error : errors[f]) error += sensing.joint_bias_rad * random.Normal();
   }
@@ -125,8 +127,8 @@ std::vector<kinematics::Posture> JointErrors(const kinematics::HandModel& hand,
 
 /// @pre the mass is set.
 HandWorldOptions WorldOptions(const kinematics::HandModel& hand, const HandReplayOptions& options,
-                              double half_angle) {
-  return {options.friction_factor * std::tan(half_angle),
+                              double friction_angle) {
+  return {options.friction_factor * std::tan(friction_angle),
           options.mass_factor * *options.mass_kg,
           kGravity,
           options.force_factor,
@@ -136,7 +138,7 @@ HandWorldOptions WorldOptions(const kinematics::HandModel& hand, const HandRepla
 }
 
 HandControlSettings ControlSettings(const plan::Plan& plan, const HandReplayOptions& options) {
-  return {plan.half_angle, *options.mass_kg * kGravity, options.sensing};
+  return {plan.friction_angle, *options.mass_kg * kGravity, options.sensing};
 }
 
 /// Return the grasp force of each static grasp, newtons.
@@ -144,8 +146,9 @@ HandControlSettings ControlSettings(const plan::Plan& plan, const HandReplayOpti
 std::vector<double> SqueezesOf(HandWorld& world, const object::Polyhedron& solid,
                                const plan::Plan& plan, const HandReplayOptions& options,
                                int entries) {
-  if (options.squeeze_N) return std::vector<double>(entries, *options.squeeze_N);
-  return TorqueSqueezes(world, solid, plan, entries, plan.half_angle, *options.mass_kg * kGravity);
+  if (options.grasp_force_N) return std::vector<double>(entries, *options.grasp_force_N);
+  return TorqueSqueezes(world, solid, plan, entries, plan.friction_angle,
+                        *options.mass_kg * kGravity);
 }
 
 void Append(const HandState& state, std::vector<double>& numbers) {
@@ -202,7 +205,7 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   const HandReplayOptions options = WithMass(given, solid, plan.scale);
-  HandWorld world(file, solid, plan.scale, WorldOptions(file.hand, options, plan.half_angle));
+  HandWorld world(file, solid, plan.scale, WorldOptions(file.hand, options, plan.friction_angle));
   const std::vector<double> squeezes = SqueezesOf(world, solid, plan, options, entries);
   ReplayResult result;
   result.settings = SettingsOf(world, solid, plan, squeezes, options);
@@ -231,7 +234,7 @@ struct HandReplays::Impl {
   const object::Polyhedron& solid;
   HandReplayOptions given;
   HandReplayOptions options = {};  ///< options with the mass at this scale
-  double half_angle = 0;
+  double friction_angle = 0;
   double scale = 0;
   std::optional<HandWorld> world = {};
   Next begun = {};  ///< initial grasps
@@ -243,12 +246,12 @@ struct HandReplays::Impl {
   }
 
   void MakeWorldFor(const plan::Plan& plan) {
-    if (world && half_angle == plan.half_angle && scale == plan.scale) return;
-    half_angle = plan.half_angle;
+    if (world && friction_angle == plan.friction_angle && scale == plan.scale) return;
+    friction_angle = plan.friction_angle;
     scale = plan.scale;
     Forget();
     options = WithMass(given, solid, scale);
-    world.emplace(file, solid, scale, WorldOptions(file.hand, options, half_angle));
+    world.emplace(file, solid, scale, WorldOptions(file.hand, options, friction_angle));
   }
 
   ReplayResult Run(const plan::Plan& plan, const Deadline& deadline) {
@@ -326,7 +329,8 @@ TrialSummary RunHandTrials(const kinematics::HandFile& file, const object::Polyh
     drawn.start_shift_m = DrawVector(deviation, random);
     drawn.start_turn_rad = DrawVector(deviation / radius, random);
     for (const kinematics::Finger& finger : file.hand.fingers) {
-      kinematics::Posture& offsets = drawn.sensing.joint_offsets.emplace_back(finger.drives);
+      kinematics::JointConfiguration& offsets =
+          drawn.sensing.joint_offsets.emplace_back(finger.drives);
       for (double& offset : offsets) offset = trials.joint_noise.value_or(0) * random.Normal();
     }
     drawn.sensing.seed = SensingSeed(options.sensing.seed, trials.seed, trial);

@@ -27,8 +27,8 @@ class HandSensors {
   HandSensors(const HandWorld& world, const HandSensing& sensing);
 
   /// Return the joint configuration that the joint sensors measure.
-  [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const {
-    return world_.measured_posture(finger);
+  [[nodiscard]] kinematics::JointConfiguration configuration(FingerIndex finger) const {
+    return world_.measured_configuration(finger);
   }
   /// Return whether the touch sensor of a fingertip detects a contact.
   [[nodiscard]] bool Touches(FingerIndex finger) const;

@@ -219,10 +219,10 @@ struct HandWorld::Impl {
     return pose;
   }
 
-  [[nodiscard]] kinematics::Posture PostureOf(FingerIndex finger) const {
+  [[nodiscard]] kinematics::JointConfiguration ConfigurationOf(FingerIndex finger) const {
     const kinematics::Finger& chain = hand.fingers[finger];
     // A constraint couples joints only softly; their mean is used.
-    kinematics::Posture sum = kinematics::Posture::Zero(chain.drives);
+    kinematics::JointConfiguration sum = kinematics::JointConfiguration::Zero(chain.drives);
     VectorXd count = VectorXd::Zero(chain.drives);
     for (std::size_t k = 0; k < chain.joints.size(); ++k) {
       const kinematics::Joint& joint = chain.joints[k];
@@ -327,14 +327,14 @@ double HandWorld::largest_speed() const {
   return largest;
 }
 
-kinematics::Posture HandWorld::posture(FingerIndex finger) const {
-  return impl_->PostureOf(finger);
+kinematics::JointConfiguration HandWorld::configuration(FingerIndex finger) const {
+  return impl_->ConfigurationOf(finger);
 }
 
-kinematics::Posture HandWorld::measured_posture(FingerIndex finger) const {
-  const std::vector<kinematics::Posture>& offsets = impl_->options.joint_offsets;
-  if (offsets.empty()) return posture(finger);
-  return posture(finger) + offsets[finger];
+kinematics::JointConfiguration HandWorld::measured_configuration(FingerIndex finger) const {
+  const std::vector<kinematics::JointConfiguration>& offsets = impl_->options.joint_offsets;
+  if (offsets.empty()) return configuration(finger);
+  return configuration(finger) + offsets[finger];
 }
 
 Vector3d HandWorld::tip(FingerIndex finger) const {
@@ -490,10 +490,10 @@ VectorXd HandWorld::BalancingTorques(FingerIndex finger, const Vector3d& at,
   return torques;
 }
 
-void HandWorld::Command(FingerIndex finger, const kinematics::Posture& target,
+void HandWorld::Command(FingerIndex finger, const kinematics::JointConfiguration& target,
                         const VectorXd& torques) {
   Impl& impl = *impl_;
-  const kinematics::Posture now = measured_posture(finger);
+  const kinematics::JointConfiguration now = measured_configuration(finger);
   for (int drive = 0; drive < now.size(); ++drive) {
     const DriveActuator& found = impl.fingers[finger].drives[drive];
     const int a = found.actuator;

@@ -33,7 +33,7 @@ struct HandWorldOptions {
   HandPhysics physics = {};
   /// Errors of the hand's joint sensors, by finger: measured minus true angles of the independent
   /// joints, radians. Empty: no errors.
-  std::vector<kinematics::Posture> joint_offsets = {};
+  std::vector<kinematics::JointConfiguration> joint_offsets = {};
   TipShape tip = TipShape::kBall;
 };
 
@@ -85,11 +85,11 @@ class HandWorld {
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
   /// Return the largest absolute velocity of hand and object, m/s or rad/s.
   [[nodiscard]] double largest_speed() const;
-  [[nodiscard]] kinematics::Posture posture(FingerIndex finger) const;
+  [[nodiscard]] kinematics::JointConfiguration configuration(FingerIndex finger) const;
   /// Return the angles of the finger's joints, coupled joints included, radians.
   [[nodiscard]] std::vector<double> joint_angles_of(FingerIndex finger) const;
   /// Return the joint configuration that the hand's sensors measure.
-  [[nodiscard]] kinematics::Posture measured_posture(FingerIndex finger) const;
+  [[nodiscard]] kinematics::JointConfiguration measured_configuration(FingerIndex finger) const;
   [[nodiscard]] Eigen::Vector3d tip(FingerIndex finger) const;
   /// Return the contact of a fingertip in the last step.
   /// It has no place if the surface is farther than 5 mm. The contacts of a fingertip that is not a
@@ -140,7 +140,7 @@ class HandWorld {
                                                  const Eigen::Vector3d& force) const;
   /// Set the target of the servos, as a measured joint configuration, and additional torques.
   /// The command assumes the nominal gains of the actuators, without HandPhysics::gain_factor.
-  void Command(FingerIndex finger, const kinematics::Posture& target,
+  void Command(FingerIndex finger, const kinematics::JointConfiguration& target,
                const Eigen::VectorXd& torques);
   /// Set a force and a torque about the centroid on the object, in addition to its weight.
   void SetLoad(const Eigen::Vector3d& force, const Eigen::Vector3d& torque);

@@ -11,13 +11,13 @@
 namespace regrasp::sim {
 namespace {
 
-bool IsHinge(const mjModel& model, int joint) { return model.jnt_type[joint] == mjJNT_HINGE; }
+bool IsRevolute(const mjModel& model, int joint) { return model.jnt_type[joint] == mjJNT_HINGE; }
 
 /// Return whether a tendon uses revolute joints only.
 bool SumsAngles(const mjModel& model, int tendon) {
   const int first = model.tendon_adr[tendon];
   for (int i = first; i < first + model.tendon_num[tendon]; ++i) {
-    if (model.wrap_type[i] != mjWRAP_JOINT || !IsHinge(model, model.wrap_objid[i])) return false;
+    if (model.wrap_type[i] != mjWRAP_JOINT || !IsRevolute(model, model.wrap_objid[i])) return false;
   }
   return true;
 }
@@ -51,8 +51,8 @@ JointCouplings::JointCouplings(const mjModel& model) {
     if (model.eq_active[i] == 0) continue;
     const int first = model.eq_obj1id[i];
     const int second = model.eq_obj2id[i];
-    if (model.eq_type[i] == mjEQ_JOINT && IsHinge(model, first) &&
-        (second < 0 || IsHinge(model, second))) {
+    if (model.eq_type[i] == mjEQ_JOINT && IsRevolute(model, first) &&
+        (second < 0 || IsRevolute(model, second))) {
       joints_.push_back(i);
     }
     if (model.eq_type[i] == mjEQ_TENDON && SumsAngles(model, first) &&

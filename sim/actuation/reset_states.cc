@@ -13,7 +13,7 @@
 #include "planner/base/random.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/reason.h"
-#include "sim/actuation/torque_squeeze.h"
+#include "sim/actuation/torque_grasp_force.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/scaling.h"
@@ -53,8 +53,9 @@ ResetStates::ResetStates(const kinematics::HandFile& file, const object::Polyhed
       scale_(scale),
       options_(options),
       weight_N_(options.mass_kg * kGravity),
-      world_(file, solid, scale,
-             {options.friction_factor * std::tan(options.half_angle), options.mass_kg, kGravity}),
+      world_(
+          file, solid, scale,
+          {options.friction_factor * std::tan(options.friction_angle), options.mass_kg, kGravity}),
       fresh_(world_, solid, scale, AtRest(options.tolerance)),
       monitor_(fresh_) {
   const std::vector<std::string> names = world_.joint_names();
@@ -66,41 +67,42 @@ ResetStates::ResetStates(const kinematics::HandFile& file, const object::Polyhed
   }
 }
 
-std::optional<double> ResetStates::SqueezeOf(const plan::HandState& rest,
-                                             const plan::FingerGrasp& grasp) {
-  const double squeeze = options_.squeeze_N
-                             ? *options_.squeeze_N
-                             : RestSqueeze(world_, solid_, scale_, rest, grasp, options_.half_angle,
-                                           weight_N_, MostSqueeze(weight_N_));
+std::optional<double> ResetStates::GraspForceOf(const plan::HandState& rest,
+                                                const plan::FingerGrasp& grasp) {
+  const double grasp_force =
+      options_.grasp_force_N
+          ? *options_.grasp_force_N
+          : StaticGraspForce(world_, solid_, scale_, rest, grasp, options_.friction_angle,
+                             weight_N_, LargestGraspForce(weight_N_));
   const Vector3d down = -weight_N_ * (rest.pose.linear().transpose() * world_.hand().up);
   const grasp::GraspForces forces =
-      grasp::ComputeGraspForces(plan::ContactsOf(grasp), solid_.wrench_frame(), options_.half_angle,
-                                {down, Vector3d::Zero()}, squeeze);
-  return forces.balanced ? std::optional(squeeze) : std::nullopt;
+      grasp::ComputeGraspForces(plan::ContactsOf(grasp), solid_.wrench_frame(),
+                                options_.friction_angle, {down, Vector3d::Zero()}, grasp_force);
+  return forces.balanced ? std::optional(grasp_force) : std::nullopt;
 }
 
 std::variant<ResetState, Reason> ResetStates::Make(const plan::HandState& rest,
                                                    const plan::FingerGrasp& grasp,
-                                                   double squeeze_N) {
+                                                   double grasp_force_N) {
   monitor_.CopyState(fresh_);
   try {
-    TakeHold(rest, grasp, squeeze_N);
+    TakeHold(rest, grasp, grasp_force_N);
   } catch (const UnstableError&) {
     return Reason::kSimulationUnstable;
   }
   if (const auto failure = Failure()) return *failure;
-  ResetState state = Store(grasp, squeeze_N);
+  ResetState state = Store(grasp, grasp_force_N);
   if (const auto failure = Validate(state)) return *failure;
   return state;
 }
 
 void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp,
-                           double squeeze_N) {
+                           double grasp_force_N) {
   world_.Place(rest);
   // Feedback is off, since the stored state is the final one, at any pose of the object.
   HandControl control(world_, solid_, scale_,
-                      {options_.half_angle, weight_N_, {.feedback = PoseFeedback::kNone}});
-  Hold hold = {{}, squeeze_N};
+                      {options_.friction_angle, weight_N_, {.feedback = PoseFeedback::kNone}});
+  Hold hold = {{}, grasp_force_N};
   for (const plan::FingerContact& held : grasp) {
     control.Attach(held.finger);
     hold.fingers.push_back(held.finger);
@@ -125,7 +127,7 @@ std::optional<Reason> ResetStates::Failure() const {
   return monitor_.violation()->reason;
 }
 
-ResetState ResetStates::Store(const plan::FingerGrasp& grasp, double squeeze_N) const {
+ResetState ResetStates::Store(const plan::FingerGrasp& grasp, double grasp_force_N) const {
   ResetState state;
   state.joints = world_.joint_angles();
   state.controls = world_.controls();
@@ -133,7 +135,7 @@ ResetState ResetStates::Store(const plan::FingerGrasp& grasp, double squeeze_N) 
   state.position = pose.translation();
   const Eigen::Quaterniond q(pose.linear());
   state.quaternion = {q.w(), q.x(), q.y(), q.z()};
-  state.squeeze_N = squeeze_N;
+  state.grasp_force_N = grasp_force_N;
   state.tips.resize(world_.hand().fingers.size());
   for (const plan::FingerContact& held : grasp) {
     const TipTouch touch = world_.touch(held.finger);
@@ -251,7 +253,7 @@ void AddStates(const DrawnStates& drawn, std::size_t fingers, std::vector<NpzArr
   arrays.back().is_truth = true;
   arrays.push_back(VectorsOf(drawn, "contact_points", fingers, &ResetState::Tip::contact_O));
   arrays.push_back(VectorsOf(drawn, "contact_forces", fingers, &ResetState::Tip::force_O));
-  arrays.push_back(ResetNumbersOf(drawn, "squeeze_N", &ResetState::squeeze_N));
+  arrays.push_back(ResetNumbersOf(drawn, "squeeze_N", &ResetState::grasp_force_N));
   arrays.push_back(ResetNumbersOf(drawn, "off_m", &ResetState::off_m));
   arrays.push_back(ResetNumbersOf(drawn, "off_rad", &ResetState::off_rad));
 }
@@ -261,7 +263,7 @@ void AddSettings(const kinematics::HandModel& hand, const ResetStateOptions& opt
   NpzArray gravity{"gravity", {3}};
   AppendVector(-kGravity * hand.up, gravity.values);
   arrays.push_back(std::move(gravity));
-  arrays.push_back(Number("mu", std::tan(options.half_angle)));
+  arrays.push_back(Number("mu", std::tan(options.friction_angle)));
   arrays.push_back(Number("mass_kg", options.mass_kg));
   arrays.push_back(Number("scale", origin.scale));
   arrays.push_back(Number("held_s", ResetStates::kHeld));
@@ -356,24 +358,24 @@ std::string CountText(const Found& tried) {
   return text;
 }
 
-Found FindState(RandomStream random, int most_tried, Worker& worker) {
+Found FindState(RandomStream random, int most_simulated, Worker& worker) {
   Found found;
-  for (int i = 0; i < most_tried; ++i) {
+  for (int i = 0; i < most_simulated; ++i) {
     const auto rest = worker.draw(random);
     if (!rest) throw NoState{"no random grasp within reach of the hand is force closure"};
-    const auto squeeze = worker.states.SqueezeOf(rest->state, rest->grasp);
-    if (!squeeze) {
+    const auto grasp_force = worker.states.GraspForceOf(rest->state, rest->grasp);
+    if (!grasp_force) {
       ++found.unbalanced;
       continue;
     }
-    auto made = worker.states.Make(rest->state, rest->grasp, *squeeze);
+    auto made = worker.states.Make(rest->state, rest->grasp, *grasp_force);
     if (auto* state = std::get_if<ResetState>(&made)) {
       found.state = std::move(*state);
       return found;
     }
     ++found.fallen[std::get<plan::Reason>(made)];
   }
-  throw NoState{"none of " + std::to_string(most_tried) +
+  throw NoState{"none of " + std::to_string(most_simulated) +
                 " random grasps within reach of the hand holds the object: " + CountText(found)};
 }
 
@@ -424,7 +426,7 @@ DrawnStates DrawResetStates(const kinematics::HandFile& file, const object::Poly
     InBlocks(found.size(), 1, options.jobs, [&](std::size_t begin, std::size_t /*end*/) {
       auto worker = workers.Take();
       found[begin] = FindState(RandomStream(options.seed, RandomUse::kResetStates, begin),
-                               options.most_tried, *worker);
+                               options.most_simulated, *worker);
       workers.Put(std::move(worker));
       const std::scoped_lock lock(telling);
       ++done;

@@ -41,16 +41,16 @@ struct ResetState {
   Eigen::Vector4d quaternion = Eigen::Vector4d::UnitX();
   std::vector<double> qpos;  ///< complete position vector of the engine (HandWorld::Save)
   std::vector<Tip> tips;     ///< fingertips by finger
-  double squeeze_N = 0;      ///< grasp force with which the state was made
+  double grasp_force_N = 0;  ///< grasp force with which the state was made
   /// Largest deviation of the object from this state while it was held.
   double off_m = 0;
   double off_rad = 0;
 };
 
 struct ResetStateOptions {
-  double half_angle = 0;  ///< friction angle, radians
+  double friction_angle = 0;  ///< friction angle, radians
   double mass_kg = 0;
-  std::optional<double> squeeze_N;  ///< grasp force; none: the largest that the torques allow
+  std::optional<double> grasp_force_N;  ///< grasp force; none: the largest that the torques allow
   HandTolerance tolerance;     ///< limits while the state is held, throughout as in a static grasp
   double friction_factor = 1;  ///< friction of the world over the assumed friction
 };
@@ -68,17 +68,18 @@ class ResetStates {
   ResetStates(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
               const ResetStateOptions& options);
 
-  /// Return the grasp force of a static grasp, newtons: that of the options, or as RestSqueeze.
+  /// Return the grasp force of a static grasp, newtons: that of the options, or as
+  /// StaticGraspForce.
   /// @param grasp  contacts of the grasp, in the object's units.
   /// @returns the grasp force; nullopt if no forces with that sum balance the object's weight.
-  [[nodiscard]] std::optional<double> SqueezeOf(const plan::HandState& rest,
-                                                const plan::FingerGrasp& grasp);
+  [[nodiscard]] std::optional<double> GraspForceOf(const plan::HandState& rest,
+                                                   const plan::FingerGrasp& grasp);
 
   /// Grasp the object in a given state, wait until it is static, and validate it.
   /// @returns the state, or the reason why it is not held.
   [[nodiscard]] std::variant<ResetState, plan::Reason> Make(const plan::HandState& rest,
                                                             const plan::FingerGrasp& grasp,
-                                                            double squeeze_N);
+                                                            double grasp_force_N);
 
   /// Hold a state, and measure the deviation of the object.
   /// @returns the reason why it is not held; nullopt if it is held.
@@ -92,8 +93,8 @@ class ResetStates {
   inline static constexpr double kHeld = 1;  ///< seconds with constant controls
 
  private:
-  void TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp, double squeeze_N);
-  [[nodiscard]] ResetState Store(const plan::FingerGrasp& grasp, double squeeze_N) const;
+  void TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp, double grasp_force_N);
+  [[nodiscard]] ResetState Store(const plan::FingerGrasp& grasp, double grasp_force_N) const;
   [[nodiscard]] plan::HandState StateOf(const ResetState& state) const;
   /// Return the violation that the monitor found, if any.
   [[nodiscard]] std::optional<plan::Reason> Failure() const;
@@ -123,7 +124,7 @@ struct DrawnStatesOptions {
   std::uint64_t seed = 0;
   /// Largest number of grasps simulated per state. If one of fifty is held, the probability that
   /// none of 1000 is held is below 1e-8.
-  int most_tried = 1000;
+  int most_simulated = 1000;
   int jobs = 1;  ///< number of threads
   std::function<void(int done)> told =
       {};  ///< callback after every state, from one thread at a time; may be empty
@@ -133,7 +134,7 @@ struct DrawnStatesOptions {
 struct DrawnStates {
   std::vector<ResetState> states;               ///< drawn states; empty if `message` is not
   std::map<plan::Reason, std::int64_t> fallen;  ///< number of grasps that were not held, by reason
-  /// number of grasps without balancing forces (SqueezeOf), not simulated
+  /// number of grasps without balancing forces (GraspForceOf), not simulated
   std::int64_t unbalanced = 0;
   std::string message;  ///< reason why drawing stopped; empty if it completed
   // Properties of the simulated world.
@@ -149,7 +150,7 @@ struct DrawnStates {
 };
 
 /// Draw static grasps until a given number of reset states is found.
-/// For each state, grasps are drawn until one is held. If none of `most_tried` is held, the
+/// For each state, grasps are drawn until one is held. If none of `most_simulated` is held, the
 /// function stops.
 ///
 /// Laws: state k depends on the seed and k alone, for any number of threads. The first M of N

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "planner/base/error.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/condition_replays.h"
 #include "sim/actuation/hand_replay.h"
 
@@ -51,7 +51,7 @@ planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan&
       .is_held = passed > 0,
       .steps = static_cast<int>(std::max<std::ptrdiff_t>(0, passed - 1)),
       .is_whole = is_whole,
-      .spare = is_whole ? std::max(0.0, ToleranceMargin(result, tolerance)) : 0,
+      .tolerance_margin = is_whole ? std::max(0.0, ToleranceMargin(result, tolerance)) : 0,
       .is_cut_short = !fails && !is_whole};
   if (fails) {
     carried.reason = result.steps.back().reason;
@@ -66,7 +66,7 @@ std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness)
   const HandReplayOptions nominal;
   if (robustness == PlanningRobustness::kNominal) return {nominal};
   HandReplayOptions sensors = nominal;
-  sensors.shake = 0;
+  sensors.disturbance_ratio = 0;
   sensors.friction_factor = 0.9;
   sensors.mass_factor = 1.1;
   sensors.physics.gain_factor = 0.9;
@@ -76,10 +76,10 @@ std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness)
   sensors.sensing.touch_N = 0.3;
   sensors.sensing.command_delay_s = 0.01;
   HandReplayOptions joints = nominal;
-  joints.shake = 0;
+  joints.disturbance_ratio = 0;
   joints.sensing.joint_bias_rad = 0.0087;
   HandReplayOptions friction = nominal;
-  friction.shake = 0;
+  friction.disturbance_ratio = 0;
   friction.friction_factor = 0.8;
   return {sensors, joints, friction, nominal};
 }
@@ -92,14 +92,16 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
   return [replays, &solid](const plan::Plan& plan,
                            const Deadline& deadline) -> std::optional<planning::ExecutionResult> {
     try {
-      const plan::Plan located = plan::LocatePlan(solid, plan);
+      const plan::Plan projected = plan::ProjectPlan(solid, plan);
       std::optional<planning::ExecutionResult> worst;
       for (std::size_t k = 0; k < replays->conditions().size(); ++k) {
-        planning::ExecutionResult found = ResultOf(replays->Own(k).Replay(located, deadline), plan,
-                                                   replays->conditions()[k].tolerance);
-        const double spare = worst ? std::min(worst->spare, found.spare) : found.spare;
+        planning::ExecutionResult found = ResultOf(replays->Own(k).Replay(projected, deadline),
+                                                   plan, replays->conditions()[k].tolerance);
+        const double tolerance_margin =
+            worst ? std::min(worst->tolerance_margin, found.tolerance_margin)
+                  : found.tolerance_margin;
         if (!worst || found.steps < worst->steps || !found.is_whole) worst = std::move(found);
-        worst->spare = spare;
+        worst->tolerance_margin = tolerance_margin;
         if (!worst->is_whole) break;
       }
       return worst;

@@ -63,7 +63,7 @@ constexpr double kLookAhead = 0.02;
 Vector3d PlannedTip(const kinematics::HandModel& hand, const HandState& state, FingerIndex finger) {
   const kinematics::Finger& chain = hand.fingers[finger];
   return state.pose.inverse() *
-         kinematics::TipAt(chain, PostureOf(chain, state.joints[finger])).centre;
+         kinematics::TipAt(chain, ConfigurationOf(chain, state.joints[finger])).centre;
 }
 
 SlidingTips::SlidingTips(const HandControl& control, const kinematics::HandModel& hand,

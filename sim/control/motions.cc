@@ -7,7 +7,7 @@ namespace regrasp::sim {
 using Eigen::Vector3d;
 
 HandForces PlanHandForces(const ReplayWorld& world, const std::vector<FingerIndex>& fingers,
-                          const grasp::Wrench& load_S, double half_angle) {
+                          const grasp::Wrench& load_S, double friction_angle) {
   HandForces forces(world.fingers().size(), Vector3d::Zero());
   if (fingers.empty()) return forces;
   const Eigen::Matrix3d R_SB = world.X_SB().linear();
@@ -20,7 +20,7 @@ HandForces PlanHandForces(const ReplayWorld& world, const std::vector<FingerInde
   const grasp::Wrench load_B{R_SB.transpose() * (world.weight_S() + load_S.force),
                              R_SB.transpose() * load_S.torque_over_radius};
   const grasp::GraspForces planned = grasp::ComputeGraspForces(
-      contacts, world.frame_B(), half_angle, load_B, world.settings().squeeze_N);
+      contacts, world.frame_B(), friction_angle, load_B, world.settings().grasp_force_N);
   for (std::size_t i = 0; i < fingers.size(); ++i) forces[fingers[i]] = R_SB * planned.forces[i];
   return forces;
 }
@@ -93,7 +93,7 @@ void CreepUntilTouch(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
     world.Step();
     std::erase_if(open, [&](const plan::FingerContact& placed) {
       const bool touches =
-          world.engine().tip_force(placed.finger).force.norm() >= kTouchForce * s.squeeze_N;
+          world.engine().tip_force(placed.finger).force.norm() >= kTouchForce * s.grasp_force_N;
       if (touches) Touch(world, placed.finger);
       return touches;
     });
@@ -110,7 +110,8 @@ void TakeHold(ReplayWorld& world, const plan::FingerGrasp& grasp_B) {
     Touch(world, held.finger);
   }
   world.SetGravity(world.settings().gravity_m_s2);
-  const HandForces forces = PlanHandForces(world, world.HoldingFingers(), {}, world.half_angle());
+  const HandForces forces =
+      PlanHandForces(world, world.HoldingFingers(), {}, world.friction_angle());
   const HandForces none(forces.size(), Vector3d::Zero());
   world.Run(kHoldTime, [&](double share) {
     world.SetGravity(share * world.settings().gravity_m_s2);
@@ -132,7 +133,7 @@ void PlaceFingers(ReplayWorld& world, const plan::FingerGrasp& placed_B) {
 }
 
 void TransferForces(ReplayWorld& world, const std::vector<FingerIndex>& fingers) {
-  BlendForces(world, PlanHandForces(world, fingers, {}, world.half_angle()));
+  BlendForces(world, PlanHandForces(world, fingers, {}, world.friction_angle()));
 }
 
 void BlendForces(ReplayWorld& world, const HandForces& to) {

@@ -17,7 +17,7 @@ using HandForces = std::vector<Eigen::Vector3d>;
 /// @param load_S  load about the centroid, in addition to the weight.
 [[nodiscard]] HandForces PlanHandForces(const ReplayWorld& world,
                                         const std::vector<FingerIndex>& fingers,
-                                        const grasp::Wrench& load_S, double half_angle);
+                                        const grasp::Wrench& load_S, double friction_angle);
 
 /// Return the current forces of the fingers.
 [[nodiscard]] HandForces CurrentForces(const ReplayWorld& world);

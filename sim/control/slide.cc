@@ -7,7 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/grasp_forces.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "sim/control/motions.h"
 #include "sim/scene/align_script.h"
 #include "sim/world/motion_monitor.h"
@@ -56,7 +56,7 @@ HandForces PlanForces(const ReplayWorld& world, const plan::FingerGrasp& grasp_B
   for (const double friction_share : {kSlideFriction, 1.0}) {
     const grasp::GraspForces planned = grasp::ComputeGraspForces(
         plan::ContactsOf(grasp_B), world.frame_B(), std::atan(friction_share * world.settings().mu),
-        load, world.settings().squeeze_N);
+        load, world.settings().grasp_force_N);
     for (std::size_t i = 0; i < grasp_B.size(); ++i) {
       hand[grasp_B[i].finger] = R_SB * planned.forces[i];
     }
@@ -228,7 +228,7 @@ SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp:
   const grasp::Wrench load{R_SB.transpose() * world.weight_S(), Vector3d::Zero()};
   const grasp::GraspForces planned = grasp::ComputeSlidingForces(
       contacts, sliding, world.frame_B(), {mu, std::atan(friction_share * mu)}, load,
-      world.settings().squeeze_N, normal);
+      world.settings().grasp_force_N, normal);
   SlideForces result{HandForces(world.fingers().size(), Vector3d::Zero()), planned.margin};
   for (std::size_t i = 0; i < holding.size(); ++i) {
     result.hand[holding[i]] = R_SB * planned.forces[i];
@@ -241,13 +241,13 @@ SlideForces PlanSlide(const ReplayWorld& world, FingerIndex finger, const grasp:
 SlideForces ChooseSlide(const ReplayWorld& world, FingerIndex finger, const grasp::Contact& at_B,
                         const Vector3d& direction_B) {
   std::optional<SlideForces> best;
-  const double squeeze = world.settings().squeeze_N;
+  const double grasp_force = world.settings().grasp_force_N;
   for (const double friction_share : {kSlideFriction, 1.0}) {
     const auto plan = [&](double normal) {
       return PlanSlide(world, finger, at_B, direction_B, normal, friction_share);
     };
     const grasp::SlidingNormal chosen =
-        grasp::ChooseSlidingNormal(kSlideForce * squeeze, kLargestSlideForce * squeeze,
+        grasp::ChooseSlidingNormal(kSlideForce * grasp_force, kLargestSlideForce * grasp_force,
                                    [&](double normal) { return plan(normal).margin; });
     if (!best || chosen.margin > best->margin) best = plan(chosen.normal);
     if (best->margin > 0) return *best;

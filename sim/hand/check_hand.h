@@ -27,7 +27,7 @@ struct HandCheckOptions {
 ///   or about to be, may touch the object and penetrate it by up to 0.3 mm.
 /// - The object ends at the goal pose of the plan.
 ///
-/// @param plan  plan with a hand, located (plan::LocatePlan).
+/// @param plan  plan with a hand, located (plan::ProjectPlan).
 /// @returns the first fault of each entry that has one. Later entries are checked as if the earlier
 ///     ones were valid. A fault names the finger, the joint or the links, the value and the limit,
 ///     and has a place that can be drawn. Links that are too close are reported at their smallest

@@ -18,8 +18,9 @@ class WeakestFingers {
  public:
   /// @param located  plan with contacts on the surface, in the unit of `frame`; must outlive this
   ///     object.
-  WeakestFingers(const plan::Plan& located, const object::WrenchFrame& frame, double half_angle)
-      : located_(located), frame_(frame), half_angle_(half_angle) {}
+  WeakestFingers(const plan::Plan& projected, const object::WrenchFrame& frame,
+                 double friction_angle)
+      : projected_(projected), frame_(frame), friction_angle_(friction_angle) {}
 
   /// Return the weakest finger of an entry.
   /// @returns nullopt if the entry has no contacts, or none of its grasps is force closure.
@@ -28,16 +29,16 @@ class WeakestFingers {
  private:
   std::optional<NeedOfFinger> OfGrasp(const plan::FingerGrasp& grasp);
 
-  const plan::Plan& located_;
+  const plan::Plan& projected_;
   object::WrenchFrame frame_;
-  double half_angle_;
+  double friction_angle_;
   // Last grasp of the previous entry, which is the first of the next one.
   plan::FingerGrasp last_;
   std::optional<NeedOfFinger> last_weakest_;
 };
 
 /// Return the grasps of an entry in order of time (see WeakestFingers).
-[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& located,
+[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& projected,
                                                            plan::EntryIndex index);
 
 }  // namespace regrasp::sim

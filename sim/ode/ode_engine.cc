@@ -249,7 +249,7 @@ bool OdeEngine::Impl::Solve(int tried, std::vector<Touch>& touches) {
     for (std::size_t i = 0; i < touches.size(); ++i) {
       touches[i].force = Read(feedback[i].f1);
       kept = kept && KeepsCone(touches[i].place.normal, boxes[i], touches[i].force, mu,
-                               kSlack * s.squeeze_N);
+                               kSlack * s.grasp_force_N);
     }
     if (kept) break;
   }

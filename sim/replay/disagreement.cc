@@ -9,7 +9,7 @@
 #include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 #include "sim/world/motion_monitor.h"
@@ -38,23 +38,24 @@ class ReplayFault {
  public:
   explicit ReplayFault(const ExaminedStep& step)
       : step_(step),
-        half_angle_(std::atan(step.settings.mu)),
+        friction_angle_(std::atan(step.settings.mu)),
         frame_(step.object.wrench_frame()),
-        grasps_(GraspsOfEntry(step.located, step.check.index)) {}
+        grasps_(GraspsOfEntry(step.projected, step.check.index)) {}
 
   [[nodiscard]] Disagreement Explain() const {
-    for (const auto look : {&ReplayFault::LookForClearance, &ReplayFault::LookAtWeight,
-                            &ReplayFault::LookAtQuality, &ReplayFault::LookAtWeightInShake,
-                            &ReplayFault::LookForEdge, &ReplayFault::LookAtCones}) {
-      if (Finding found = (this->*look)()) return *found;
+    for (const auto examine :
+         {&ReplayFault::CheckClearance, &ReplayFault::CheckWeight, &ReplayFault::CheckQuality,
+          &ReplayFault::CheckWeightUnderDisturbance, &ReplayFault::CheckEdge,
+          &ReplayFault::CheckCones}) {
+      if (Finding found = (this->*examine)()) return *found;
     }
     return {.cause = Cause::kUnknown,
             .text = "no cause found: quality " + FormatShort(quality()) + ", disturbance " +
-                    FormatShort(step_.settings.shake),
-            .values = {{"quality", quality()}, {"shake", step_.settings.shake}}};
+                    FormatShort(step_.settings.disturbance_ratio),
+            .values = {{"quality", quality()}, {"shake", step_.settings.disturbance_ratio}}};
   }
 
-  [[nodiscard]] Finding LookForEdge() const {
+  [[nodiscard]] Finding CheckEdge() const {
     const double slip = step_.settings.tolerance * step_.object.diameter();
     for (const plan::FingerGrasp& grasp : grasps_) {
       for (const plan::FingerContact& held : grasp) {
@@ -73,11 +74,11 @@ class ReplayFault {
   }
 
  private:
-  [[nodiscard]] double Metres(double length) const { return length * step_.located.scale; }
+  [[nodiscard]] double Metres(double length) const { return length * step_.projected.scale; }
 
   [[nodiscard]] grasp::Wrench Weight() const {
     const double share =
-        step_.settings.mass_kg * step_.settings.gravity_m_s2 / step_.settings.squeeze_N;
+        step_.settings.mass_kg * step_.settings.gravity_m_s2 / step_.settings.grasp_force_N;
     return {-share * Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   }
 
@@ -87,14 +88,14 @@ class ReplayFault {
       if (grasp.empty()) return 0;
       const grasp::Grasp contacts = plan::ContactsOf(grasp);
       // A lower bound of the quality is much cheaper than its value.
-      if (grasp::QualityAtLeast(contacts, frame_, half_angle_, least)) continue;
-      least = std::min(least, grasp::ComputeQuality(contacts, frame_, half_angle_).lower);
+      if (grasp::QualityAtLeast(contacts, frame_, friction_angle_, least)) continue;
+      least = std::min(least, grasp::ComputeQuality(contacts, frame_, friction_angle_).lower);
     }
     return least;
   }
 
-  [[nodiscard]] Finding LookForClearance() const {
-    const double tip = step_.settings.fingertip_radius_m / step_.located.scale;
+  [[nodiscard]] Finding CheckClearance() const {
+    const double tip = step_.settings.fingertip_radius_m / step_.projected.scale;
     for (const plan::FingerGrasp& grasp : grasps_) {
       for (const plan::FingerContact& held : grasp) {
         const double clearance = criteria::ComputeClearance(step_.object, held.contact, 2 * tip);
@@ -117,14 +118,14 @@ class ReplayFault {
     return std::nullopt;
   }
 
-  [[nodiscard]] Finding LookAtWeight() const {
+  [[nodiscard]] Finding CheckWeight() const {
     const double weight = Weight().force.norm();
     if (weight == 0) return std::nullopt;
     const grasp::Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
     for (const plan::FingerGrasp& grasp : grasps_) {
       if (grasp.empty()) continue;
       const auto carried =
-          grasp::ComputeLargestLoad(plan::ContactsOf(grasp), frame_, half_angle_, {}, down, 1);
+          grasp::ComputeLargestLoad(plan::ContactsOf(grasp), frame_, friction_angle_, {}, down, 1);
       if (!carried || carried->upper >= weight) continue;
       const auto [load, most] = FormatWithLimit(weight, carried->lower, 4);
       return Disagreement{.cause = Cause::kWeight,
@@ -135,43 +136,43 @@ class ReplayFault {
     return std::nullopt;
   }
 
-  [[nodiscard]] Finding LookAtQuality() const {
-    const double shake = step_.settings.shake;
-    if (quality() >= shake) return std::nullopt;
-    const auto [reached, needed] = FormatWithLimit(quality(), shake, 4);
+  [[nodiscard]] Finding CheckQuality() const {
+    const double disturbance_ratio = step_.settings.disturbance_ratio;
+    if (quality() >= disturbance_ratio) return std::nullopt;
+    const auto [reached, needed] = FormatWithLimit(quality(), disturbance_ratio, 4);
     return Disagreement{
         .cause = Cause::kQuality,
         .text = "the quality is below the disturbance: ε = " + reached + ", disturbance " + needed,
-        .values = {{"quality", quality()}, {"shake", shake}}};
+        .values = {{"quality", quality()}, {"shake", disturbance_ratio}}};
   }
 
   /// Check for a grasp whose quality falls below ρ only because it supports the weight.
-  [[nodiscard]] Finding LookAtWeightInShake() const {
+  [[nodiscard]] Finding CheckWeightUnderDisturbance() const {
     if (grasps_.back().empty()) return std::nullopt;
     const grasp::Grasp rest = plan::ContactsOf(grasps_.back());
-    for (const Push& push : PushDirections(frame_.dimension)) {
-      const auto left =
-          grasp::ComputeLargestLoad(rest, frame_, half_angle_, Weight(), PushWrench(push, 1), 1);
-      if (left && left->upper >= step_.settings.shake) continue;
+    for (const Disturbance& disturbance : DisturbanceDirections(frame_.dimension)) {
+      const auto left = grasp::ComputeLargestLoad(rest, frame_, friction_angle_, Weight(),
+                                                  DisturbanceWrench(disturbance, 1), 1);
+      if (left && left->upper >= step_.settings.disturbance_ratio) continue;
       const double least = left ? left->lower : 0;
-      const auto [resisted, needed] = FormatWithLimit(least, step_.settings.shake, 4);
-      return Disagreement{.cause = Cause::kWeight,
-                          .text = "in addition to the weight, " +
-                                  FormatShort(Weight().force.norm()) +
-                                  " of the grasp force, the grasp resists " + resisted + " in " +
-                                  PushName(push) + ", less than the disturbance of " + needed,
-                          .values = {{"weight", Weight().force.norm()},
-                                     {"resisted", least},
-                                     {"shake", step_.settings.shake}}};
+      const auto [resisted, needed] = FormatWithLimit(least, step_.settings.disturbance_ratio, 4);
+      return Disagreement{
+          .cause = Cause::kWeight,
+          .text = "in addition to the weight, " + FormatShort(Weight().force.norm()) +
+                  " of the grasp force, the grasp resists " + resisted + " in " +
+                  DisturbanceName(disturbance) + ", less than the disturbance of " + needed,
+          .values = {{"weight", Weight().force.norm()},
+                     {"resisted", least},
+                     {"shake", step_.settings.disturbance_ratio}}};
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] Finding LookAtCones() const {
+  [[nodiscard]] Finding CheckCones() const {
     for (const auto& [margins, when] :
          {std::pair{&step_.replay.motion_margins, "during the motion"},
-          {&step_.replay.rest_margins, "in the static grasp"},
-          {&step_.replay.shake_margins, "under a disturbance"}}) {
+          {&step_.replay.static_margins, "in the static grasp"},
+          {&step_.replay.disturbance_margins, "under a disturbance"}}) {
       const auto least = SmallestMargin(*margins);
       if (!least || *least >= kConeReached) continue;
       const FingerIndex finger = FingerOfSmallestMargin(*margins);
@@ -182,21 +183,21 @@ class ReplayFault {
   }
 
   const ExaminedStep& step_;
-  double half_angle_;
+  double friction_angle_;
   object::WrenchFrame frame_;
   std::vector<plan::FingerGrasp> grasps_;
 };
 
 Disagreement ExplainFixed(const ExaminedStep& step) {
   const StepMotion& fixed = *step.replay.fixed;
-  const auto least = SmallestMargin(fixed.shake_margins);
+  const auto least = SmallestMargin(fixed.disturbance_margins);
   if (least && *least < kConeReached) {
-    const FingerIndex finger = FingerOfSmallestMargin(fixed.shake_margins);
+    const FingerIndex finger = FingerOfSmallestMargin(fixed.disturbance_margins);
     return ConeReached("with the grasp force of the static grasp the force of " + Finger(finger) +
                            " reached its friction cone",
                        finger, *least);
   }
-  if (Finding edge = ReplayFault(step).LookForEdge()) return *edge;
+  if (Finding edge = ReplayFault(step).CheckEdge()) return *edge;
   return {.cause = Cause::kUnknown,
           .text = "no cause found: the object yielded by " + FormatLength(fixed.give_m) +
                   " on the servos, and no force reached its cone",
@@ -210,38 +211,38 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
         .cause = Cause::kNotSimulated,
         .text = "the replay does not model " + std::string(plan::ReasonName(step.check.reason))};
   }
-  if (step.settings.shake == 0) {
-    return {.cause = Cause::kNoShake,
+  if (step.settings.disturbance_ratio == 0) {
+    return {.cause = Cause::kNoDisturbance,
             .text = "without a disturbance the replay does not test the grasp",
             .values = {{"shake", 0}}};
   }
-  const double half_angle = std::atan(step.settings.mu);
+  const double friction_angle = std::atan(step.settings.mu);
   if (!step.check.required) {
     return {.cause = Cause::kUnknown,
             .text = "no cause found: no friction angle below 90° is sufficient"};
   }
   const double required = step.check.required->upper;
-  if (required <= half_angle) {
+  if (required <= friction_angle) {
     return {.cause = Cause::kNotSimulated,
             .text = "the replay uses the normals of facets, not of contact patches"};
   }
-  const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(half_angle));
+  const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(friction_angle));
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
-  return {.cause = near ? Cause::kCriticalFriction : Cause::kUnknown,
+  return {.cause = near ? Cause::kRequiredFriction : Cause::kUnknown,
           .text = std::string(near ? "the friction is less than 2 % below the required one"
                                    : "no cause found") +
                   ": friction angle " + text.limit + "°, required " + text.value + "°",
-          .values = {{"half_angle_deg", Degrees(half_angle)},
+          .values = {{"half_angle_deg", Degrees(friction_angle)},
                      {"required_half_angle_deg", Degrees(required)}}};
 }
 
 /// Check whether friction near the required one explains a disagreement of the two engines.
-Finding LookAtCriticalFriction(const ExaminedStep& step) {
+Finding CheckRequiredFriction(const ExaminedStep& step) {
   if (!step.check.required) return std::nullopt;
   const double critical = std::tan(step.check.required->upper);
   const double ratio = step.settings.mu / critical;
   if (std::abs(ratio - 1) > kNearCriticalOfTwo) return std::nullopt;
-  return Disagreement{.cause = Cause::kCriticalFriction,
+  return Disagreement{.cause = Cause::kRequiredFriction,
                       .text = "the friction is " + FormatShort(ratio) + " times the required one",
                       .values = {{"half_angle_deg", Degrees(std::atan(step.settings.mu))},
                                  {"required_half_angle_deg", Degrees(step.check.required->upper)}}};
@@ -273,7 +274,7 @@ std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
   const bool ode = step.replay.ode->reason == plan::Reason::kNone;
   if (mujoco == ode) return std::nullopt;
   const Between between = mujoco ? Between::kOdeFails : Between::kOdePasses;
-  if (Finding critical = LookAtCriticalFriction(step)) return Named(between, *critical);
+  if (Finding critical = CheckRequiredFriction(step)) return Named(between, *critical);
   const plan::Reason reason = mujoco ? step.replay.ode->reason : step.replay.reason;
   if (reason == plan::Reason::kSimulationUnstable) {
     return Named(between, {.cause = Cause::kUnstable,
@@ -285,7 +286,7 @@ std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
   static_cast<StepMotion&>(failed) = *step.replay.ode;
   return Named(
       between,
-      ReplayFault({step.object, step.located, step.check, failed, step.settings}).Explain());
+      ReplayFault({step.object, step.projected, step.check, failed, step.settings}).Explain());
 }
 
 std::string LikelyCauseText(const Disagreement& found) {
@@ -324,9 +325,9 @@ std::string_view CauseName(Cause cause) {
       return "cone-reached";
     case Cause::kNotSimulated:
       return "not-simulated";
-    case Cause::kNoShake:
+    case Cause::kNoDisturbance:
       return "no-shake";
-    case Cause::kCriticalFriction:
+    case Cause::kRequiredFriction:
       return "critical-friction";
     case Cause::kUnstable:
       return "unstable";

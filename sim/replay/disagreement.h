@@ -30,8 +30,8 @@ enum class Cause {
   kEdge,          ///< a contact closer to the border of its face than the slip limit
   kConeReached,   ///< a finger's force reached its friction cone
   kNotSimulated,  ///< an analytic fault that a replay does not check
-  kNoShake,       ///< a replay without disturbance test: the weight alone does not test the grasp
-  kCriticalFriction,  ///< friction within 2 % of the required friction
+  kNoDisturbance,  ///< a replay without disturbance test: the weight alone does not test the grasp
+  kRequiredFriction,  ///< friction within 2 % of the required friction
   kUnstable,          ///< an unstable simulation in one of the two engines
   kUnknown,           ///< none of these
 };
@@ -48,7 +48,7 @@ struct Disagreement {
 /// A step and its results.
 struct ExaminedStep {
   const object::Object& object;
-  const plan::Plan& located;  ///< contacts on the surface (PlanCheck::located)
+  const plan::Plan& projected;  ///< contacts on the surface (PlanCheck::projected)
   const plan::StepCheck& check;
   const StepReplay& replay;
   const ReplaySettings& settings;

@@ -8,7 +8,7 @@
 #include "planner/grasp/grasp_forces.h"
 #include "sim/control/motions.h"
 #include "sim/control/slide.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/align_script.h"
 #include "sim/scene/scene.h"
 #include "sim/world/motion_monitor.h"
@@ -104,31 +104,31 @@ plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object
 }
 
 /// Return the step with its disturbance tests; the monitor is restored.
-StepMotion ShakeAtRest(ReplayWorld& world, const object::Object& object, double scale,
-                       DisturbanceResponse response) {
+StepMotion DisturbStaticGrasp(ReplayWorld& world, const object::Object& object, double scale,
+                              DisturbanceResponse response) {
   const MotionMonitor before = world.monitor();
   StepMotion seen;
   seen.fault = DescribeFault(world, object, scale);
   seen.detail = world.monitor().detail();
   seen.snapshot = world.TakeSnapshot();
-  const auto see_fault = [&](const plan::FaultPush& push) {
+  const auto see_fault = [&](const plan::FaultDisturbance& disturbance) {
     // A failure that precedes the disturbance is not caused by it.
     if (world.monitor().reason() == before.reason()) return;
     seen.fault = DescribeFault(world, object, scale);
     seen.detail = world.monitor().detail();
-    seen.fault.push = push;
+    seen.fault.disturbance = disturbance;
     seen.snapshot = world.TakeSnapshot();
   };
   StepMotion result;
   world.monitor().ForgetForces();
   try {
-    Shake(world, response, see_fault);
+    ApplyDisturbances(world, response, see_fault);
     result = Describe(world.monitor());
     result.detail = seen.detail;
   } catch (const UnstableError& error) {
     result = Unstable(world.monitor(), error);
   }
-  result.shake_margins = world.monitor().margins();
+  result.disturbance_margins = world.monitor().margins();
   result.fault = seen.fault;
   result.snapshot = seen.snapshot;
   world.monitor() = before;
@@ -140,8 +140,8 @@ FingerMargins MarginsNow(const ReplayWorld& world) {
   for (const FingerIndex f : world.HoldingFingers()) {
     const Eigen::Vector3d force = world.engine().tip_force(f).force;
     const Eigen::Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
-    if (force.dot(normal) < kPressing * world.settings().squeeze_N) continue;
-    AddMargin(f, ConeMargin(force, normal, world.half_angle(), world.Twist(f)), margins);
+    if (force.dot(normal) < kPressing * world.settings().grasp_force_N) continue;
+    AddMargin(f, ConeMargin(force, normal, world.friction_angle(), world.Twist(f)), margins);
   }
   return margins;
 }
@@ -150,16 +150,17 @@ FingerMargins MarginsNow(const ReplayWorld& world) {
 void ExamineRest(ReplayWorld& world, const object::Object& object, double scale,
                  StepReplay& result) {
   const ReplaySettings& settings = world.settings();
-  result.rest_margins = MarginsNow(world);
-  const auto shake = [&](DisturbanceResponse response) {
-    return ShakeAtRest(world, object, scale, response);
+  result.static_margins = MarginsNow(world);
+  const auto disturb = [&](DisturbanceResponse response) {
+    return DisturbStaticGrasp(world, object, scale, response);
   };
-  if (settings.protocol != Protocol::kFixed) result.adapted = shake(DisturbanceResponse::kAdapted);
-  if (settings.protocol != Protocol::kAdapted) result.fixed = shake(DisturbanceResponse::kFixed);
+  if (settings.protocol != Protocol::kFixed)
+    result.adapted = disturb(DisturbanceResponse::kAdapted);
+  if (settings.protocol != Protocol::kAdapted) result.fixed = disturb(DisturbanceResponse::kFixed);
   static_cast<StepMotion&>(result) = result.adapted ? *result.adapted : *result.fixed;
   // A grasp that loses the object without a disturbance resists no wrench.
-  if (settings.stress && world.monitor().reason() == plan::Reason::kNone)
-    result.stress = MeasureStress(world);
+  if (settings.resisted_wrench && world.monitor().reason() == plan::Reason::kNone)
+    result.resisted_wrench = MeasureResistedWrenches(world);
 }
 
 StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const plan::Plan& plan,
@@ -197,16 +198,16 @@ std::vector<Eigen::Vector3d> HoldControls(const Scene& scene, const object::Obje
                                           const plan::Plan& plan) {
   const ReplaySettings& s = scene.settings;
   const Eigen::Vector3d up = s.gravity_m_s2 * Eigen::Vector3d::UnitZ();
-  std::vector<Eigen::Vector3d> push(scene.fingers.size(), s.finger_mass_kg * up);
+  std::vector<Eigen::Vector3d> targets(scene.fingers.size(), s.finger_mass_kg * up);
   const grasp::Grasp contacts = plan::ContactsOf(ToScene(body, plan.scale, plan.initial));
   const grasp::GraspForces forces = grasp::ComputeGraspForces(
       contacts, {Eigen::Vector3d::Zero(), s.diameter_m / 2, scene.dimension}, std::atan(s.mu),
-      {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.squeeze_N);
+      {-s.mass_kg * up, Eigen::Vector3d::Zero()}, s.grasp_force_N);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    push[plan.initial[i].finger] += forces.forces[i];
+    targets[plan.initial[i].finger] += forces.forces[i];
   }
-  for (Eigen::Vector3d& control : push) control /= s.finger_stiffness_N_m;
-  return push;
+  for (Eigen::Vector3d& control : targets) control /= s.finger_stiffness_N_m;
+  return targets;
 }
 
 }  // namespace
@@ -222,7 +223,7 @@ ReplayResult ReplayOnce(const object::Object& object, const plan::Plan& plan,
   if (total == 0) return result;
   ReplayWorld world(object, plan, MakeScene(object, plan, total - 1, options), observer);
   result.settings = world.settings();
-  CheckShake(result.settings);
+  CheckDisturbance(result.settings);
   for (plan::EntryIndex index{0}; index < total; ++index) {
     result.steps.push_back(ReplayStep(world, object, plan, index));
     if (observer.on_progress) observer.on_progress(index + 1, total);
@@ -247,7 +248,7 @@ ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,
       ReplayOnce(object, plan, In(EngineChoice::kMujoco, options), observer, steps);
   const int replayed = static_cast<int>(result.steps.size());
   ReplayOptions by_ode = In(EngineChoice::kOde, options);
-  by_ode.stress = false;  // no verdict depends on it
+  by_ode.resisted_wrench = false;  // no verdict depends on it
   ReplayResult second = ReplayOnce(object, plan, by_ode, {}, replayed);
   for (StepReplay& step : second.steps) {
     result.steps[step.index].ode = std::move(static_cast<StepMotion&>(step));

@@ -16,13 +16,13 @@ namespace regrasp::sim {
 
 /// Measurements of a step: its motion, its static grasp and the disturbance test after it.
 struct StepMotion : Violation {
-  double displacement_m = 0;    ///< largest translation of the object's centroid in this step
-  double rotation_deg = 0;      ///< largest rotation of the object in this step
-  double moved_m = 0;           ///< largest |Δx| + R|Δrotation|, which the tolerance limits
-  double give_m = 0;            ///< compliance displacement: the same in the fixed response
-  double slip_m = 0;            ///< largest slide of a holding fingertip along the surface
-  bool contact_lost = false;    ///< a holding finger left the surface
-  FingerMargins shake_margins;  ///< smallest friction margins in the disturbance test
+  double displacement_m = 0;          ///< largest translation of the object's centroid in this step
+  double rotation_deg = 0;            ///< largest rotation of the object in this step
+  double moved_m = 0;                 ///< largest |Δx| + R|Δrotation|, which the tolerance limits
+  double give_m = 0;                  ///< compliance displacement: the same in the fixed response
+  double slip_m = 0;                  ///< largest slide of a holding fingertip along the surface
+  bool contact_lost = false;          ///< a holding finger left the surface
+  FingerMargins disturbance_margins;  ///< smallest friction margins in the disturbance test
   /// The static grasp after the step, or the state under the disturbance that the grasp does not
   /// withstand. Without fingers if the simulation became unstable.
   plan::Snapshot snapshot;
@@ -38,11 +38,11 @@ struct StepReplay : StepMotion {
   AlignShares align_shares;  ///< planned shares; zero for other steps
   /// friction margins of holding fingers that do not slide on purpose
   FingerMargins motion_margins;
-  FingerMargins rest_margins;  ///< friction margins in the static grasp after the step
+  FingerMargins static_margins;  ///< friction margins in the static grasp after the step
   std::optional<StepMotion> adapted, fixed;  ///< results of each protocol that ran
   std::optional<StepMotion> ode;  ///< results of the second engine, with EngineChoice::kBoth
-  /// resisted wrench in each direction, with ReplayOptions::stress
-  std::vector<DirectionStress> stress;
+  /// resisted wrench in each direction, with ReplayOptions::resisted_wrench
+  std::vector<ResistedWrench> resisted_wrench;
   /// Measurements of a replay by a hand. If set, displacement, rotation and motion are relative to
   /// the planned pose.
   std::optional<HandMeasures> hand = std::nullopt;
@@ -66,7 +66,7 @@ struct ReplayResult {
 /// ODE, up to the first that fails there. The observer watches MuJoCo.
 ///
 /// Deterministic: the same plan gives the same bits.
-/// @param plan   plan located on the object (PlanCheck::located).
+/// @param plan   plan located on the object (PlanCheck::projected).
 /// @param steps  number of steps to replay, initial grasp included; negative: all.
 /// @throws InputError  if the body cannot be simulated (scale or mass out of range).
 [[nodiscard]] ReplayResult ReplayPlan(const object::Object& object, const plan::Plan& plan,

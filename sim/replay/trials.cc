@@ -10,7 +10,7 @@
 #include "planner/base/random.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/surface_walk.h"
-#include "sim/replay/finger_ways.h"
+#include "sim/replay/finger_paths.h"
 #include "sim/replay/replay.h"
 
 namespace regrasp::sim {
@@ -37,7 +37,7 @@ class NoisyHand {
   void Move(plan::Align& align) {
     std::vector<plan::FingerGrasp> noisy;
     for (const plan::FingerGrasp& waypoint : align.waypoints) {
-      FingerWays ways;
+      FingerPaths ways;
       for (const plan::FingerContact& held : waypoint) ways.Add(held, WayTo(held));
       ways.AppendTo(object_, noisy);
     }
@@ -196,7 +196,7 @@ TrialSummary RunTrials(const object::Object& object, const plan::Plan& plan,
     RandomStream contacts(trials.seed, RandomUse::kTrialContacts, trial);
     const TrialFactors factors = DrawTrialFactors(trials, trial);
     ReplayOptions drawn = options;
-    drawn.stress = false;  // only the nominal replay measures it
+    drawn.resisted_wrench = false;  // only the nominal replay measures it
     drawn.friction_factor = factors.friction;
     drawn.mass_factor = factors.mass;
     const plan::Plan noisy = AddContactNoise(object, plan, noise, contacts);

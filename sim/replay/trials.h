@@ -36,7 +36,7 @@ struct ContactNoise {
 /// kMostNoiseDraws times. Then the contact stays.
 ///
 /// Deterministic. Without deviation the plan is unchanged.
-/// @param plan  plan located on the object (PlanCheck::located); its goal is not changed.
+/// @param plan  plan located on the object (PlanCheck::projected); its goal is not changed.
 [[nodiscard]] plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
                                          const ContactNoise& noise, RandomStream& random);
 

@@ -97,7 +97,7 @@ constexpr int kAlignClearanceSamples = 4;
 
 /// Requirements on a segment.
 struct Demand {
-  double half_angle;
+  double friction_angle;
   double clearance;  ///< 0: none
   bool may_turn;     ///< whether fingers may stop between the normals of two faces
 };
@@ -143,11 +143,11 @@ class ScriptWriter {
     return all > 0 ? path_.Travel(from, to) / all : (to - from) / path_.end();
   }
 
-  [[nodiscard]] bool Holds(const grasp::Grasp& grasp, double half_angle) const {
-    return grasp::IsForceClosure(grasp, frame_, half_angle);
+  [[nodiscard]] bool Holds(const grasp::Grasp& grasp, double friction_angle) const {
+    return grasp::IsForceClosure(grasp, frame_, friction_angle);
   }
   [[nodiscard]] bool HoldsAt(double t) const {
-    return Holds(plan::ContactsOf(path_.At(t)), limits_.half_angle);
+    return Holds(plan::ContactsOf(path_.At(t)), limits_.friction_angle);
   }
 
   /// Return the contacts that differ between two grasps of the path.
@@ -179,13 +179,13 @@ class ScriptWriter {
     const plan::FingerGrasp to = path_.At(end);
     grasp::Grasp after = grasp;
     for (const std::size_t k : group) after[k] = to[k].contact;
-    if (!Holds(after, demand.half_angle)) return std::nullopt;
+    if (!Holds(after, demand.friction_angle)) return std::nullopt;
     for (const double share : kSupportShares) {
       const double t = share < 1 ? begin + share * (end - begin) : end;
       const plan::FingerGrasp between = path_.At(t);
       grasp::Grasp meanwhile = grasp;
       for (const std::size_t k : group) meanwhile[k] = between[k].contact;
-      if (!Holds(meanwhile, demand.half_angle) || !CanRest(group, t, demand)) continue;
+      if (!Holds(meanwhile, demand.friction_angle) || !CanRest(group, t, demand)) continue;
       FingerHandover move;
       for (std::size_t i = 0; i < group.size(); ++i) {
         move.support_fingers.push_back({limits_.spare[i], between[group[i]].contact});
@@ -269,8 +269,8 @@ class ScriptWriter {
   [[nodiscard]] bool OthersHold(const grasp::Grasp& grasp, std::size_t k) const {
     grasp::Grasp others = grasp;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const double half_angle = std::atan(kSlideFriction * std::tan(limits_.half_angle));
-    return grasp::QualityAtLeast(others, frame_, half_angle, kSlideQuality);
+    const double friction_angle = std::atan(kSlideFriction * std::tan(limits_.friction_angle));
+    return grasp::QualityAtLeast(others, frame_, friction_angle, kSlideQuality);
   }
 
   /// Find an order in which the contacts `left` can slide to their positions in `to`.
@@ -295,7 +295,7 @@ class ScriptWriter {
       const double t =
           i < kAlignClearanceSamples ? begin + (end - begin) * i / kAlignClearanceSamples : end;
       const bool rests = i == kAlignClearanceSamples;
-      if (!CanRest(moving, t, {limits_.half_angle, limits_.clearance, !rests})) return false;
+      if (!CanRest(moving, t, {limits_.friction_angle, limits_.clearance, !rests})) return false;
     }
     return true;
   }
@@ -349,7 +349,7 @@ class ScriptWriter {
   }
 
   [[nodiscard]] std::optional<Segment> ChooseHandover(double begin, int reach) const {
-    const double full = limits_.half_angle;
+    const double full = limits_.friction_angle;
     std::optional<Segment> longest = FindLongest(begin, reach, {full, limits_.clearance, false});
     if (longest) return MakeEasier(begin, reach, *std::move(longest));
     for (const Demand& demand : {Demand{full, limits_.least_clearance, false},
@@ -366,13 +366,13 @@ class ScriptWriter {
   [[nodiscard]] Segment MakeEasier(double begin, int reach, Segment longest) const {
     const double length = longest.end - begin;
     for (const double share : kEasyFriction) {
-      const double easy = std::atan(share * std::tan(limits_.half_angle));
+      const double easy = std::atan(share * std::tan(limits_.friction_angle));
       std::optional<Segment> easier = FindLongest(begin, reach, {easy, limits_.clearance, false});
       if (easier && 2 * (easier->end - begin) >= length) return *std::move(easier);
     }
     for (const double share : kShorter) {
       if (share * length < kShortestAlignSegment) break;
-      const Demand demand{limits_.half_angle, limits_.clearance, false};
+      const Demand demand{limits_.friction_angle, limits_.clearance, false};
       std::optional<Segment> shorter = TrySegment(begin, begin + share * length, demand);
       if (shorter) return *std::move(shorter);
     }
@@ -384,7 +384,7 @@ class ScriptWriter {
     grasp::Grasp grasp = plan::ContactsOf(path_.At(begin));
     return std::ranges::all_of(FindMoving(path_.At(begin), to), [&](std::size_t k) {
       grasp[k] = to[k].contact;
-      return Holds(grasp, limits_.half_angle);
+      return Holds(grasp, limits_.friction_angle);
     });
   }
 

@@ -66,7 +66,7 @@ struct AlignScript {
 
 /// Constraints of a script.
 struct AlignLimits {
-  double half_angle = 0;           ///< friction angle, radians
+  double friction_angle = 0;       ///< friction angle, radians
   std::vector<FingerIndex> spare;  ///< fingers that are not in contact
   /// Preferred radius of a sphere that fits at every contact at which a finger stops
   /// (planner/criteria/reach.h), in the object's unit.

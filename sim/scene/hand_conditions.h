@@ -27,7 +27,7 @@ struct HandSensing {
   double command_delay_s = 0;  ///< time from a command of the controller to its effect on a servo
   /// Constant errors of the joint angles, by finger: measured minus true angles of the independent
   /// joints, radians. They are added to errors by `joint_bias_rad`. Empty: none.
-  std::vector<kinematics::Posture> joint_offsets = {};
+  std::vector<kinematics::JointConfiguration> joint_offsets = {};
   std::uint64_t seed = 0;  ///< of all errors
 
   bool operator==(const HandSensing&) const = default;

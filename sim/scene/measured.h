@@ -33,7 +33,7 @@ struct Violation {
 using FingerMargins = std::map<FingerIndex, double>;
 
 /// Direction of a disturbance force or torque on a static grasp.
-struct Push {
+struct Disturbance {
   bool turn = false;  ///< torque about the axis instead of force along it
   int axis = 0;       ///< 0 x, 1 y, 2 z
   double sign = 1;    ///< +1 or −1
@@ -41,8 +41,8 @@ struct Push {
 
 /// The largest disturbance that a static grasp resists in one direction in addition to the weight,
 /// over the grasp force (a torque also over R). Finger forces adapt to it.
-struct DirectionStress {
-  Push push;
+struct ResistedWrench {
+  Disturbance disturbance;
   /// Largest value that the object withstands in the replay, by bisection; 0 if it withstands none.
   double replay = 0;
   /// Largest value that forces inside the cones balance at the planned contacts with the same grasp
@@ -70,7 +70,7 @@ struct HandMeasures {
   double frozen_off_m = 0;
   double frozen_off_rad = 0;
   bool is_complete = false;  ///< whether the step reached its static grasp
-  double squeeze_N = 0;      ///< grasp force of the static grasp after the step
+  double grasp_force_N = 0;  ///< grasp force of the static grasp after the step
   double simulated_s = 0;    ///< without the disturbance tests
 };
 

@@ -33,25 +33,25 @@ std::vector<grasp::Grasp> GraspsOf(const plan::Plan& plan, int entries) {
 /// Return the largest weight over the grasp force that all grasps carry.
 /// Ignores grasps that carry none.
 double CarriedShare(const object::Object& object, const std::vector<grasp::Grasp>& grasps,
-                    double half_angle) {
+                    double friction_angle) {
   const grasp::Wrench down{-Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   double least = std::numeric_limits<double>::infinity();
   for (const grasp::Grasp& grasp : grasps) {
     if (grasp.empty()) continue;
     const auto carried =
-        grasp::ComputeLargestLoad(grasp, object.wrench_frame(), half_angle, {}, down, 1);
+        grasp::ComputeLargestLoad(grasp, object.wrench_frame(), friction_angle, {}, down, 1);
     if (carried && carried->lower > 0) least = std::min(least, carried->lower);
   }
-  return std::isfinite(least) ? least : std::tan(half_angle);
+  return std::isfinite(least) ? least : std::tan(friction_angle);
 }
 
 }  // namespace
 
-double HandSqueeze(const object::Object& object, const plan::Plan& located, int entries,
-                   double half_angle, double mass_kg) {
+double HandGraspForce(const object::Object& object, const plan::Plan& projected, int entries,
+                      double friction_angle, double mass_kg) {
   const double share = object.dimension() == 2
-                           ? std::tan(half_angle)
-                           : CarriedShare(object, GraspsOf(located, entries), half_angle);
+                           ? std::tan(friction_angle)
+                           : CarriedShare(object, GraspsOf(projected, entries), friction_angle);
   return std::min(kGripSafety * mass_kg * kGravity / share, kStrongestGrip_N);
 }
 
@@ -59,10 +59,10 @@ namespace {
 
 /// Range of the simulation. Every object looks alike to the engine (UnitsOf). These sizes, between
 /// molecules and planets, exclude typing errors.
-constexpr double kLeastDiameter = 1e-9, kLargestDiameter = 1e7;    // metres
-constexpr double kLeastThickness = 1e-3, kLargestThickness = 1e3;  // over the diameter
-constexpr double kLeastMass = 1e-30, kLargestMass = 1e30;          // kilograms
-constexpr double kLeastSqueeze = 1e-30, kLargestSqueeze = 1e36;    // newtons
+constexpr double kLeastDiameter = 1e-9, kLargestDiameter = 1e7;        // metres
+constexpr double kLeastThickness = 1e-3, kLargestThickness = 1e3;      // over the diameter
+constexpr double kLeastMass = 1e-30, kLargestMass = 1e30;              // kilograms
+constexpr double kLeastGraspForce = 1e-30, kLargestGraspForce = 1e36;  // newtons
 
 /// Limits on the constants of the header; see DeriveSettings.
 static_assert(kStiffness >= 5);
@@ -105,7 +105,7 @@ double LeastGyration(const object::Object& object) {
 /// The grasp force has a moment arm about this axis once fingertips roll.
 double RollingTime(const ReplaySettings& s, double gyration) {
   const double arm = std::max(s.fingertip_radius_m, gyration);
-  return gyration * std::sqrt(s.mass_kg / (s.squeeze_N * arm));
+  return gyration * std::sqrt(s.mass_kg / (s.grasp_force_N * arm));
 }
 
 }  // namespace
@@ -118,35 +118,37 @@ object::BodyMeasures BodyOf(const object::Object& object, double scale,
   return body;
 }
 
-ReplaySettings DeriveSettings(const object::Object& object, double scale, double half_angle,
+ReplaySettings DeriveSettings(const object::Object& object, double scale, double friction_angle,
                               double clearance, const ReplayOptions& options) {
   ReplaySettings s;
   const object::BodyMeasures body = BodyOf(object, scale, options);
   CheckBody(object, options, body);
   s.diameter_m = body.diameter_m;
-  s.mu = std::tan(half_angle);
+  s.mu = std::tan(friction_angle);
   s.thickness_m = body.thickness_m;
   s.mass_kg = body.mass_kg;
-  s.shake = options.shake;
+  s.disturbance_ratio = options.disturbance_ratio;
   s.engine = options.engine;
   s.protocol = options.protocol;
-  s.stress = options.stress;
+  s.resisted_wrench = options.resisted_wrench;
   s.tolerance = options.tolerance;
   s.align = options.align;
   s.friction_factor = options.friction_factor;
   s.mass_factor = options.mass_factor;
   s.gravity_m_s2 = options.gravity && object.dimension() == 3 ? kGravity : 0;
-  s.squeeze_N = options.squeeze_N.value_or(
-      s.mass_kg * kGravity / (kWeightOfShake * std::max(s.shake, kLeastShakeForSqueeze)));
-  if (options.squeeze_N) {
-    s.squeeze_source = options.hand_squeeze ? SqueezeSource::kHand : SqueezeSource::kGiven;
+  s.grasp_force_N = options.grasp_force_N.value_or(
+      s.mass_kg * kGravity /
+      (kWeightOfDisturbance * std::max(s.disturbance_ratio, kLeastDisturbanceForGraspForce)));
+  if (options.grasp_force_N) {
+    s.grasp_force_source =
+        options.hand_grasp_force ? GraspForceSource::kHand : GraspForceSource::kGiven;
   }
-  CheckRange("squeeze", s.squeeze_N, kLeastSqueeze, kLargestSqueeze, "N");
-  s.natural_time_s = std::sqrt(s.mass_kg * s.diameter_m / s.squeeze_N);
+  CheckRange("squeeze", s.grasp_force_N, kLeastGraspForce, kLargestGraspForce, "N");
+  s.characteristic_time_s = std::sqrt(s.mass_kg * s.diameter_m / s.grasp_force_N);
   const double steps = 2 / kDampingStep;
   const double gyration = LeastGyration(object) * scale;
   s.finger_mass_kg = kFingerMass * s.mass_kg;
-  s.finger_stiffness_N_m = options.stiffness_factor * kStiffness * s.squeeze_N / s.diameter_m;
+  s.finger_stiffness_N_m = options.stiffness_factor * kStiffness * s.grasp_force_N / s.diameter_m;
   s.finger_damping_Ns_m = 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg);
   const double wanted = options.finger_radius
                             ? *options.finger_radius * scale
@@ -163,7 +165,7 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
 
 EngineUnits UnitsOf(const ReplaySettings& settings) {
   return {settings.diameter_m / kEngineDiameter, settings.mass_kg,
-          settings.natural_time_s / kEngineTime};
+          settings.characteristic_time_s / kEngineTime};
 }
 
 }  // namespace regrasp::sim

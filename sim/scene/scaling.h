@@ -18,9 +18,9 @@ namespace regrasp::sim {
 /// upright around it. This value is used for planar objects, and if no grasp carries any weight.
 /// @param located     plan with contacts placed on the object.
 /// @param entries     number of entries that count, the initial grasp first.
-/// @param half_angle  friction angle in radians.
-[[nodiscard]] double HandSqueeze(const object::Object& object, const plan::Plan& located,
-                                 int entries, double half_angle, double mass_kg);
+/// @param friction_angle  friction angle in radians.
+[[nodiscard]] double HandGraspForce(const object::Object& object, const plan::Plan& projected,
+                                    int entries, double friction_angle, double mass_kg);
 
 /// Ratio of the grip force of humans to the force that just holds an object, which is 1.4 to 2
 /// (Johansson and Westling 1984).
@@ -40,10 +40,11 @@ inline constexpr double kStrongestGrip_N = 200;
 ///
 /// With D the diameter, M the mass, W = M g and F the grasp force (total normal force of a static
 /// grasp):
-/// - F = W / (kWeightOfShake · shake): the weight is a tenth of the disturbance. A grasp of quality
-///   slightly above `shake` thus resists both together. A smaller grasp force, by option, requires
-///   more friction of every grasp. The same F is used for a planar object, although the plane
-///   supports it.
+/// - F = W / (kWeightOfDisturbance · shake): the weight is a tenth of the disturbance. A grasp of
+/// quality
+///   slightly above `disturbance_ratio` thus resists both together. A smaller grasp force, by
+///   option, requires more friction of every grasp. The same F is used for a planar object,
+///   although the plane supports it.
 /// - finger stiffness k = kStiffness · F / D. Below 5 F / D a grasp buckles under its own grasp
 ///   force.
 /// - finger mass m = kFingerMass · M. Heavier fingers eject a light object from good grasps in the
@@ -63,15 +64,15 @@ inline constexpr double kStrongestGrip_N = 200;
 /// A planar object is the prism of its polygon, object::kPrismThickness · D thick unless the
 /// options set its thickness; M = density · area · thickness. The thickness matters through M only.
 ///
-/// @param half_angle  friction angle θ, radians.
+/// @param friction_angle  friction angle θ, radians.
 /// @param scale       metres per unit of the object.
-/// @param options     options; a `hand_squeeze` is in `squeeze_N` already.
+/// @param options     options; a `hand_grasp_force` is in `grasp_force_N` already.
 /// @param clearance   radius in metres of the largest sphere that touches the object only at a
 ///     contact, smallest over the plan's contacts (planner/criteria/reach.h).
 /// @throws InputError  if size, thickness, mass or grasp force is outside the range of the
 ///     simulation, or a solid has a thickness.
 [[nodiscard]] ReplaySettings DeriveSettings(const object::Object& object, double scale,
-                                            double half_angle, double clearance,
+                                            double friction_angle, double clearance,
                                             const ReplayOptions& options);
 
 /// Return units in which every object looks alike to the engine.
@@ -84,10 +85,10 @@ inline constexpr double kStrongestGrip_N = 200;
 
 inline constexpr double kEngineDiameter = 1;
 inline constexpr double kEngineTime = 0.01;
-inline constexpr double kGravity = 9.81;       ///< m/s²
-inline constexpr double kWeightOfShake = 0.1;  ///< weight over disturbance force
+inline constexpr double kGravity = 9.81;             ///< m/s²
+inline constexpr double kWeightOfDisturbance = 0.1;  ///< weight over disturbance force
 /// Smallest disturbance size for the grasp force, because a size of 0 requires one too.
-inline constexpr double kLeastShakeForSqueeze = 1e-3;
+inline constexpr double kLeastDisturbanceForGraspForce = 1e-3;
 inline constexpr double kStiffness = 20;     ///< k D / F
 inline constexpr double kFingerMass = 0.2;   ///< m / M
 inline constexpr double kDampingStep = 0.4;  ///< damping · step / mass

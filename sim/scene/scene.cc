@@ -93,7 +93,7 @@ struct Sequence {
   int steps;
 
   /// Return the contacts that entry `index` of the report names and at which fingers stop.
-  [[nodiscard]] plan::FingerGrasp PlannedRests(plan::EntryIndex index) const {
+  [[nodiscard]] plan::FingerGrasp PlannedStaticGrasps(plan::EntryIndex index) const {
     if (index == 0) return plan.initial;
     const plan::Step& step = plan::StepOf(plan, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) return change->place;
@@ -106,7 +106,7 @@ struct Sequence {
   [[nodiscard]] int CountFingers() const {
     int fingers = plan.fingers;
     for (plan::EntryIndex index{0}; index <= steps; ++index) {
-      for (const plan::FingerContact& held : PlannedRests(index)) {
+      for (const plan::FingerContact& held : PlannedStaticGrasps(index)) {
         fingers = std::max(fingers, held.finger + 1);
       }
     }
@@ -126,7 +126,7 @@ struct Sequence {
       if (const auto* align = std::get_if<plan::Align>(&plan::StepOf(plan, index))) {
         std::ranges::for_each(align->waypoints, check);
       } else {
-        check(PlannedRests(index));
+        check(PlannedStaticGrasps(index));
       }
     }
   }
@@ -148,14 +148,14 @@ double SmallestClearance(const object::Object& object, const plan::FingerGrasp& 
 }
 
 /// Return the entries with the scripts of all sliding steps, in the object's own frame and unit.
-std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, double half_angle,
+std::vector<SceneEntry> WriteScripts(const Sequence& sequence, int fingers, double friction_angle,
                                      double wanted, AlignChoice choice) {
   const double D = sequence.object.diameter();
   double clearance = wanted;
   for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
-    clearance = SmallestClearance(sequence.object, sequence.PlannedRests(index), clearance);
+    clearance = SmallestClearance(sequence.object, sequence.PlannedStaticGrasps(index), clearance);
   }
-  AlignLimits limits{half_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
+  AlignLimits limits{friction_angle, {}, 0, kLeastClearance * D, choice == AlignChoice::kSlide};
   limits.clearance = std::max(clearance, 2 * kLeastTipRadius * D);
   std::vector<SceneEntry> entries(sequence.steps + 1);
   plan::FingerGrasp holding = sequence.plan.initial;
@@ -215,8 +215,9 @@ std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
 }
 
 /// Return all contacts at which fingers stop in entry `index`.
-plan::FingerGrasp AllRests(const Sequence& sequence, const Scene& scene_O, plan::EntryIndex index) {
-  plan::FingerGrasp rests = sequence.PlannedRests(index);
+plan::FingerGrasp AllStaticGrasps(const Sequence& sequence, const Scene& scene_O,
+                                  plan::EntryIndex index) {
+  plan::FingerGrasp rests = sequence.PlannedStaticGrasps(index);
   const std::optional<AlignScript>& script = scene_O.entries[index].script;
   if (!script) return rests;
   for (const AlignMove& move : script->moves) {
@@ -311,15 +312,15 @@ void LayOut(const Sequence& sequence, const ReplayOptions& options, Scene& scene
   const object::Object& object = sequence.object;
   const double scale = sequence.plan.scale;
   const int fingers = static_cast<int>(scene.fingers.size());
-  scene.entries = WriteScripts(sequence, fingers, sequence.plan.half_angle,
+  scene.entries = WriteScripts(sequence, fingers, sequence.plan.friction_angle,
                                WantedClearance(object, options), options.align);
   SiteCollector collector{object, scale, scene,
                           object::kPointTolerance * object.diameter() * scale};
   for (plan::EntryIndex index{0}; index <= sequence.steps; ++index) {
     SceneEntry& entry = scene.entries[index];
-    entry.unreachable = FindUnreachable(object, AllRests(sequence, scene, index));
+    entry.unreachable = FindUnreachable(object, AllStaticGrasps(sequence, scene, index));
     if (!entry.script) {
-      collector.AddPlanned(sequence.PlannedRests(index));
+      collector.AddPlanned(sequence.PlannedStaticGrasps(index));
       continue;
     }
     collector.Add(*entry.script);
@@ -350,12 +351,12 @@ Scene MakeScene(const object::Object& body, const plan::Plan& plan, int steps,
   scene.fingers.resize(sequence.CountFingers());
   LayOut(sequence, options, scene);
   AssignCollisionBits(scene);
-  if (options.hand_squeeze && !options.squeeze_N) {
-    options.squeeze_N = HandSqueeze(body, plan, steps + 1, plan.half_angle,
-                                    BodyOf(body, plan.scale, options).mass_kg);
+  if (options.hand_grasp_force && !options.grasp_force_N) {
+    options.grasp_force_N = HandGraspForce(body, plan, steps + 1, plan.friction_angle,
+                                           BodyOf(body, plan.scale, options).mass_kg);
   }
   scene.settings = DeriveSettings(
-      body, plan.scale, plan.half_angle,
+      body, plan.scale, plan.friction_angle,
       SmallestClearance(body, plan.scale, scene, WantedClearance(body, options)), options);
   scene.settings.torsion_m = plan.torsion * plan.scale;
   for (SceneSite& site : scene.sites) {
@@ -378,8 +379,8 @@ Scene InUnits(Scene scene, const EngineUnits& units) {
   s.mass_kg *= kilogram;
   s.finger_mass_kg *= kilogram;
   s.timestep_s *= second;
-  s.natural_time_s *= second;
-  s.squeeze_N /= units.force_N();
+  s.characteristic_time_s *= second;
+  s.grasp_force_N /= units.force_N();
   s.gravity_m_s2 *= metre / (second * second);
   s.finger_stiffness_N_m *= kilogram / (second * second);
   s.finger_damping_Ns_m *= kilogram / second;

@@ -32,23 +32,23 @@ enum class AlignChoice {
 };
 
 /// Source of the grasp force.
-enum class SqueezeSource {
-  kShake,    ///< the weight is a tenth of the disturbance force (scaling.h)
-  kHand,     ///< the force of a human hand (hand_squeeze.h)
-  kGiven,    ///< ReplayConditions::squeeze_N
-  kTorques,  ///< the torque limits of the hand (sim/actuation/torque_squeeze.h)
+enum class GraspForceSource {
+  kDisturbance,  ///< the weight is a tenth of the disturbance force (scaling.h)
+  kHand,         ///< the force of a human hand (hand_grasp_force.h)
+  kGiven,        ///< ReplayConditions::grasp_force_N
+  kTorques,      ///< the torque limits of the hand (sim/actuation/torque_grasp_force.h)
 };
 
 /// Options of every replay: the object's mass, the grasp force and the disturbance test. Optional
 /// values without a value are derived from the object, the grasps or the hand.
 struct ReplayConditions {
-  std::optional<double> mass_kg;    ///< mass of the object, instead of density
-  double density_kg_m3 = 1000;      ///< density of the homogeneous solid
-  std::optional<double> thickness;  ///< thickness of a polygon's prism, unit of the object
-  std::optional<double> squeeze_N;  ///< grasp force: sum of the normal forces of a static grasp
-  double shake = 0.01;         ///< ρ: disturbance force over grasp force; a torque also over R
-  double friction_factor = 1;  ///< friction of the world over the one that the hand assumes
-  double mass_factor = 1;      ///< mass of the object over the one that the hand assumes
+  std::optional<double> mass_kg;        ///< mass of the object, instead of density
+  double density_kg_m3 = 1000;          ///< density of the homogeneous solid
+  std::optional<double> thickness;      ///< thickness of a polygon's prism, unit of the object
+  std::optional<double> grasp_force_N;  ///< grasp force: sum of the normal forces of a static grasp
+  double disturbance_ratio = 0.01;  ///< ρ: disturbance force over grasp force; a torque also over R
+  double friction_factor = 1;       ///< friction of the world over the one that the hand assumes
+  double mass_factor = 1;           ///< mass of the object over the one that the hand assumes
 };
 
 /// Options of a replay by point fingers. The friction is the plan's. Optional values without a
@@ -56,10 +56,11 @@ struct ReplayConditions {
 struct ReplayOptions : ReplayConditions {
   /// Radius of the spherical fingertips, unit of the object; default: the plan's, if it has one.
   std::optional<double> finger_radius;
-  /// Whether a derived grasp force is that of a human hand (hand_squeeze.h).
-  bool hand_squeeze = false;
+  /// Whether a derived grasp force is that of a human hand (hand_grasp_force.h).
+  bool hand_grasp_force = false;
   Protocol protocol = Protocol::kAdapted;
-  bool stress = false;      ///< measure the resisted wrench in each direction (sim/measure/shake.h)
+  bool resisted_wrench =
+      false;  ///< measure the resisted wrench in each direction (sim/measure/disturbance.h)
   double tolerance = 1e-3;  ///< allowed (|Δx| + R|Δrotation|) / D, and slip / D
   AlignChoice align = AlignChoice::kImitate;
   double stiffness_factor = 1;  ///< factor on the derived stiffness of the fingers
@@ -118,12 +119,12 @@ struct ReplaySettings {
   /// Torsional friction length of all contacts (grasp::Contact::torsion); 0: hard-finger contacts.
   double torsion_m = 0;
   double mass_kg = 0;
-  double squeeze_N = 0;
-  SqueezeSource squeeze_source = SqueezeSource::kShake;
-  double shake = 0;
+  double grasp_force_N = 0;
+  GraspForceSource grasp_force_source = GraspForceSource::kDisturbance;
+  double disturbance_ratio = 0;
   EngineChoice engine = EngineChoice::kMujoco;
   Protocol protocol = Protocol::kAdapted;
-  bool stress = false;
+  bool resisted_wrench = false;
   double tolerance = 0;
   AlignChoice align = AlignChoice::kImitate;
   double gravity_m_s2 = 0;  ///< 0 for a planar object, which the plane supports
@@ -135,7 +136,7 @@ struct ReplaySettings {
   double finger_damping_Ns_m = 0;
   double timestep_s = 0;
   /// Characteristic time √(M D / F), the unit of durations of the replay.
-  double natural_time_s = 0;
+  double characteristic_time_s = 0;
   double friction_factor = 1;    ///< simulated friction over `mu`
   double mass_factor = 1;        ///< simulated mass of the object over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch

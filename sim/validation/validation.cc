@@ -34,7 +34,7 @@ const object::Polyhedron& SolidOf(const ValidationRequest& request) {
 void CheckHand(const ValidationRequest& request, ValidationSettings& settings) {
   const object::Polyhedron& solid = SolidOf(request);
   settings.check.hand_faults = sim::CheckHand(
-      *request.hand, solid, plan::LocatePlan(solid, settings.plan), request.options.hand_check);
+      *request.hand, solid, plan::ProjectPlan(solid, settings.plan), request.options.hand_check);
   // Refuse unsuitable fingertips before the long part of the work.
   if (settings.hand) static_cast<void>(sim::TipShapesOf(*request.hand, settings.hand->tip));
 }
@@ -51,14 +51,14 @@ int CountPassing(const std::vector<ReportStep>& steps) {
 void CheckPlan(const ValidationRequest& request, ValidationResult& result) {
   ValidationSettings& settings = result.settings;
   plan::PlanCheck checked = plan::CheckPlan(request.object, settings.plan, settings.check);
-  settings.plan = std::move(checked.located);
+  settings.plan = std::move(checked.projected);
   const plan::Plan& plan = settings.plan;
   Report& report = result.report;
   report.scale = plan.scale;
   report.dimension = plan.dimension;
   report.measures = object::MeasuresText(sim::BodyOf(request.object, plan.scale, settings.replay));
   report.planner = plan.planner;
-  report.half_angle = plan.half_angle;
+  report.friction_angle = plan.friction_angle;
   report.torsion = plan.torsion;
   report.finger_radius = plan.finger_radius;
   if (plan.at_given_points && request.given_points != nullptr) {
@@ -68,28 +68,28 @@ void CheckPlan(const ValidationRequest& request, ValidationResult& result) {
 }
 
 /// Measure contact regions of switches that pass the check.
-void MeasureRegions(const object::Object& object, const plan::Plan& located, int count,
+void MeasureRegions(const object::Object& object, const plan::Plan& projected, int count,
                     Report& report) {
   const auto* polygon = dynamic_cast<const object::Polygon*>(&object);
   if (polygon == nullptr) return;
-  plan::FingerGrasp before = located.initial;
+  plan::FingerGrasp before = projected.initial;
   for (plan::EntryIndex index{1}; index < count; ++index) {
-    const plan::Step& step = plan::StepOf(located, index);
+    const plan::Step& step = plan::StepOf(projected, index);
     if (const auto* change = std::get_if<plan::Switch>(&step)) {
       report.steps[index].region =
-          plan::MeasureSwitchRegion(*polygon, before, *change, report.half_angle);
+          plan::MeasureSwitchRegion(*polygon, before, *change, report.friction_angle);
     }
     before = plan::GraspAfter(before, step);
   }
 }
 
 /// Check the certificates of sliding steps that pass the check.
-void CheckCertificates(const plan::Plan& located, int count, Report& report) {
+void CheckCertificates(const plan::Plan& projected, int count, Report& report) {
   for (plan::EntryIndex index{1}; index < count; ++index) {
-    const auto* align = std::get_if<plan::Align>(&plan::StepOf(located, index));
+    const auto* align = std::get_if<plan::Align>(&plan::StepOf(projected, index));
     if (align == nullptr || !align->certificate) continue;
     report.steps[index].certificate = certificate::CheckAlignCertificate(
-        *align, report.dimension, std::tan(report.half_angle), *align->certificate);
+        *align, report.dimension, std::tan(report.friction_angle), *align->certificate);
   }
 }
 
@@ -113,15 +113,15 @@ void Replay(const ValidationRequest& request, const ValidationObserver& observer
 }
 
 /// Find the weakest finger of the steps that pass the check, and why results disagree.
-void ExamineSteps(const object::Object& object, const plan::Plan& located, int count,
+void ExamineSteps(const object::Object& object, const plan::Plan& projected, int count,
                   Report& report) {
-  sim::WeakestFingers fingers(located, object.wrench_frame(), report.half_angle);
+  sim::WeakestFingers fingers(projected, object.wrench_frame(), report.friction_angle);
   for (plan::EntryIndex index{0}; index < count; ++index) {
     ReportStep& step = report.steps[index];
     step.weakest_finger = fingers.OfEntry(index);
     // Likely causes are known only for point fingers.
     if (!step.replay || report.settings->hand) continue;
-    const sim::ExaminedStep examined{object, located, step.check, *step.replay, *report.settings};
+    const sim::ExaminedStep examined{object, projected, step.check, *step.replay, *report.settings};
     step.disagreement = sim::ExplainDisagreement(examined);
     step.engines = sim::ExplainEngines(examined);
   }
@@ -138,13 +138,13 @@ void SkipAfterFailure(std::vector<ReportStep>& steps) {
   }
 }
 
-void MeasureGrasp(const object::Object& object, const plan::Plan& located, Report& report) {
-  const grasp::Grasp grasp = plan::ContactsOf(located.initial);
+void MeasureGrasp(const object::Object& object, const plan::Plan& projected, Report& report) {
+  const grasp::Grasp grasp = plan::ContactsOf(projected.initial);
   const object::WrenchFrame frame = object.wrench_frame();
   report.grasp.emplace();
-  report.grasp->fingers = grasp::MeasureFingerFriction(grasp, frame, report.half_angle);
+  report.grasp->fingers = grasp::MeasureFingerFriction(grasp, frame, report.friction_angle);
   if (report.grasp->fingers.empty()) return;
-  report.grasp->quality = grasp::BoundQuality(grasp, frame, report.half_angle);
+  report.grasp->quality = grasp::BoundQuality(grasp, frame, report.friction_angle);
 }
 
 /// Run trials with the grasp force of the replay without noise.
@@ -166,7 +166,7 @@ void RunTrials(const ValidationRequest& request, const ValidationObserver& obser
   // With two engines MuJoCo decides.
   if (options.engine == sim::EngineChoice::kBoth) options.engine = sim::EngineChoice::kMujoco;
   // A hand does not know the noise.
-  if (options.hand_squeeze) options.squeeze_N = report.settings->squeeze_N;
+  if (options.hand_grasp_force) options.grasp_force_N = report.settings->grasp_force_N;
   report.trials = sim::RunTrials(request.object, settings.plan, options, trials,
                                  report.settings->fingertip_radius_m, progress);
 }
@@ -187,7 +187,7 @@ void ReplayUnderConditions(const ValidationRequest& request, const ValidationObs
 }
 
 /// Prove force closure or its loss in each step up to the first with another fault.
-void AddProofs(const plan::Plan& located, Report& report) {
+void AddProofs(const plan::Plan& projected, Report& report) {
   int entries = 0;
   for (const ReportStep& step : report.steps) {
     const plan::Reason reason = step.check.reason;
@@ -198,7 +198,7 @@ void AddProofs(const plan::Plan& located, Report& report) {
     ++entries;
   }
   const std::vector<certificate::EntryProof> proofs =
-      certificate::FindPlanProofs(located, report.half_angle, entries);
+      certificate::FindPlanProofs(projected, report.friction_angle, entries);
   for (std::size_t i = 0; i < proofs.size(); ++i) report.steps[i].proof = proofs[i];
 }
 
@@ -208,7 +208,7 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
   const ValidationOptions& options = request.options;
   ValidationSettings settings{.plan = request.plan, .check = {}, .replay = options.replay};
   plan::Plan& plan = settings.plan;
-  plan.half_angle = options.half_angle.value_or(plan.half_angle);
+  plan.friction_angle = options.friction_angle.value_or(plan.friction_angle);
   plan::SetTorsion(options.torsion.value_or(plan.torsion), plan);
   if (options.replay.finger_radius) plan.finger_radius = options.replay.finger_radius;
   settings.check.start = request.start;
@@ -250,12 +250,12 @@ ValidationResult Validate(const ValidationRequest& request, const ValidationObse
   return result;
 }
 
-plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp, double half_angle,
-                        double scale) {
+plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
+                        double friction_angle, double scale) {
   plan::Plan plan;
   plan.scale = scale;
   plan.dimension = object.dimension();
-  plan.half_angle = half_angle;
+  plan.friction_angle = friction_angle;
   plan.fingers = static_cast<int>(grasp.size());
   plan.initial = plan::FingersInOrder(grasp);
   plan.goal = grasp;

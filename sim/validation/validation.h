@@ -23,10 +23,10 @@ namespace regrasp::validation {
 
 /// Options of a validation. Without a value the plan's value applies.
 struct ValidationOptions {
-  std::optional<double> half_angle;  ///< friction angle, radians
-  std::optional<double> torsion;     ///< torsional friction length, unit of the object; 0: none
-  bool allow_undecided = false;      ///< plan::CheckOptions::allow_undecided
-  bool certificates = false;         ///< whether to find a proof of each statement on force closure
+  std::optional<double> friction_angle;  ///< friction angle, radians
+  std::optional<double> torsion;         ///< torsional friction length, unit of the object; 0: none
+  bool allow_undecided = false;          ///< plan::CheckOptions::allow_undecided
+  bool certificates = false;  ///< whether to find a proof of each statement on force closure
   /// Settings of the replay by point fingers. Its ReplayConditions hold for a hand, too.
   sim::ReplayOptions replay;
   bool replay_by_hand = true;        ///< whether the hand's actuators execute the plan, if any
@@ -97,9 +97,9 @@ struct ValidationResult {
 /// Return the plan without steps that holds one grasp.
 /// Fingers have the numbers of the contacts. The torsional friction length is that of the first
 /// contact.
-/// @param half_angle  friction angle, radians.
+/// @param friction_angle  friction angle, radians.
 /// @param scale       metres per unit of the object.
 [[nodiscard]] plan::Plan MakeHoldPlan(const object::Object& object, const grasp::Grasp& grasp,
-                                      double half_angle, double scale);
+                                      double friction_angle, double scale);
 
 }  // namespace regrasp::validation

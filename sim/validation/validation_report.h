@@ -74,9 +74,9 @@ struct Report {
   std::string planner;
   double scale = 1;  ///< metres per unit of length of the object
   int dimension = 3;
-  std::string measures;   ///< size and mass of the object: "10.4 cm across, 216 g"
-  double half_angle = 0;  ///< friction angle, radians
-  double torsion = 0;     ///< torsional friction length, unit of the object
+  std::string measures;       ///< size and mass of the object: "10.4 cm across, 216 g"
+  double friction_angle = 0;  ///< friction angle, radians
+  double torsion = 0;         ///< torsional friction length, unit of the object
   /// Radius of the fingers, unit of the object; nullopt: points.
   std::optional<double> finger_radius = std::nullopt;
   /// Largest distance of a contact from the points that the object's file gives; nullopt if the

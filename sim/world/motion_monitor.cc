@@ -10,9 +10,9 @@
 
 namespace regrasp::sim {
 
-double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal, double half_angle,
-                  double twist) {
-  return half_angle -
+double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
+                  double friction_angle, double twist) {
+  return friction_angle -
          std::atan2(std::sqrt(TangentialSquare(force, normal, twist)), normal.dot(force));
 }
 
@@ -117,7 +117,7 @@ void MotionMonitor::AddGap(FingerIndex finger, double gap_m) {
 void MotionMonitor::AddForce(FingerIndex finger, const Eigen::Vector3d& force,
                              const Eigen::Vector3d& normal, double twist) {
   const double pressing = force.dot(normal);
-  if (pressing < kPressing * settings_.squeeze_N) return;
+  if (pressing < kPressing * settings_.grasp_force_N) return;
   // Evaluated for every finger in every time step, so the angle is computed only when it is read.
   if (finger >= std::ssize(slope_squares_)) slope_squares_.resize(finger + 1, kNoSlope);
   const double square = TangentialSquare(force, normal, twist);

@@ -28,7 +28,7 @@ namespace regrasp::sim {
 ///     friction as a tangential force of this size perpendicular to the actual one.
 /// @pre the force is not zero.
 [[nodiscard]] double ConeMargin(const Eigen::Vector3d& force, const Eigen::Vector3d& normal,
-                                double half_angle, double twist = 0);
+                                double friction_angle, double twist = 0);
 
 /// Add a margin of a finger; the smallest one of each finger is kept.
 void AddMargin(FingerIndex finger, double margin, FingerMargins& margins);

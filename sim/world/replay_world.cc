@@ -61,7 +61,7 @@ object::WrenchFrame ReplayWorld::frame_B() const {
   return {Vector3d::Zero(), settings().diameter_m / 2, scene_.dimension};
 }
 
-double ReplayWorld::half_angle() const { return std::atan(settings().mu); }
+double ReplayWorld::friction_angle() const { return std::atan(settings().mu); }
 
 std::vector<FingerIndex> ReplayWorld::HoldingFingers() const {
   std::vector<FingerIndex> holding;
@@ -105,7 +105,7 @@ void ReplayWorld::Step() {
 }
 
 int ReplayWorld::StepsIn(double duration) const {
-  const double steps = duration * settings().natural_time_s / settings().timestep_s;
+  const double steps = duration * settings().characteristic_time_s / settings().timestep_s;
   return std::max(1, static_cast<int>(std::lround(steps)));
 }
 

@@ -39,7 +39,7 @@ class ReplayWorld {
   [[nodiscard]] const ReplaySettings& settings() const { return scene_.settings; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] object::WrenchFrame frame_B() const;
-  [[nodiscard]] double half_angle() const;
+  [[nodiscard]] double friction_angle() const;
   [[nodiscard]] std::vector<WorldFinger>& fingers() { return fingers_; }
   [[nodiscard]] const std::vector<WorldFinger>& fingers() const { return fingers_; }
   /// Return the fingers in contact, in ascending order.

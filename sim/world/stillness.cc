@@ -10,16 +10,17 @@ namespace {
 using Eigen::Vector3d;
 
 /// Poses of the object and of the fingers in contact.
-struct Posture {
+struct JointConfiguration {
   Eigen::Isometry3d X_SB;
   std::vector<FingerIndex> fingers;
   std::vector<Vector3d> tips_S;
 };
 
-Posture TakePosture(const ReplayWorld& world) {
-  Posture posture{world.X_SB(), world.HoldingFingers(), {}};
-  for (const FingerIndex f : posture.fingers) posture.tips_S.push_back(world.engine().tip(f));
-  return posture;
+JointConfiguration TakeConfiguration(const ReplayWorld& world) {
+  JointConfiguration configuration{world.X_SB(), world.HoldingFingers(), {}};
+  for (const FingerIndex f : configuration.fingers)
+    configuration.tips_S.push_back(world.engine().tip(f));
+  return configuration;
 }
 
 /// Return the motion of the object's points per angle of a rotation: metres, at most its radius.
@@ -32,7 +33,7 @@ double ArmOf(const Eigen::AngleAxisd& turn_B, const ReplayWorld& world) {
 }
 
 /// Return whether any of them has moved by more than a limit, metres.
-bool HasTravelled(const Posture& from, double limit, const ReplayWorld& world) {
+bool HasTravelled(const JointConfiguration& from, double limit, const ReplayWorld& world) {
   const Eigen::Isometry3d X_SB = world.X_SB();
   for (std::size_t i = 0; i < from.fingers.size(); ++i) {
     if ((world.engine().tip(from.fingers[i]) - from.tips_S[i]).norm() > limit) return true;
@@ -51,14 +52,14 @@ bool HasTravelled(const Posture& from, double limit, const ReplayWorld& world) {
 bool WaitUntilStill(ReplayWorld& world) {
   const double still = kStill * world.settings().diameter_m;
   const int enough = world.StepsIn(kStillTime);
-  Posture since = TakePosture(world);
+  JointConfiguration since = TakeConfiguration(world);
   int quiet = 0;
   for (int i = world.StepsIn(kLongestWait); i > 0 && quiet < enough; --i) {
     world.Step();
     if (world.monitor().lost()) return false;
     ++quiet;
     if (!HasTravelled(since, still, world)) continue;
-    since = TakePosture(world);
+    since = TakeConfiguration(world);
     quiet = 0;
   }
   return quiet >= enough;

@@ -22,10 +22,10 @@ void ComeToRest(ReplayWorld& world);
 /// force cancel.
 [[nodiscard]] double FreeMotion(double ramp);
 
-/// Duration of stillness in characteristic times √(M D / F) (ReplaySettings::natural_time_s). A
-/// finger's servo settles in a tenth. The object oscillates on the servos with a period of about
-/// one, well damped. If two fingers are close together the period is ten, and it takes twenty to
-/// become still.
+/// Duration of stillness in characteristic times √(M D / F)
+/// (ReplaySettings::characteristic_time_s). A finger's servo settles in a tenth. The object
+/// oscillates on the servos with a period of about one, well damped. If two fingers are close
+/// together the period is ten, and it takes twenty to become still.
 inline constexpr double kStillTime = 0.4;
 /// Longest wait in characteristic times. An object slides if a disturbance exceeds the resisted
 /// wrench by 1 / 800,000 of the grasp force; in this time it has moved by the default tolerance.

@@ -43,7 +43,7 @@ TEST_P(Contests, NoPlannerJoinsMoreThanGeneral) {
       EXPECT_GT(answer.seconds, 0) << standing.planner;
       EXPECT_EQ(answer.joined, answer.steps > 0) << standing.planner;
       EXPECT_EQ(answer.joined, answer.travel > 0) << standing.planner;
-      EXPECT_LE(answer.margin, setting.half_angle) << standing.planner;
+      EXPECT_LE(answer.margin, setting.friction_angle) << standing.planner;
     }
   }
   EXPECT_EQ(asked, GetParam().asked);

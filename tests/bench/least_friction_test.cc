@@ -7,7 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/base/random.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 namespace regrasp::bench {
 namespace least_friction_test {
@@ -66,7 +66,7 @@ TEST(LeastFrictionTest, ForAllDirectionsItIsThatOfForceClosureAndForTheWeightNoM
       const Vector3d p = Draw(random).normalized();
       contacts.push_back(At(p, -p + 0.2 * Draw(random)));
     }
-    const auto closure = grasp::ComputeRequiredHalfAngle(contacts, kFrame);
+    const auto closure = grasp::ComputeRequiredFrictionAngle(contacts, kFrame);
     if (!closure || std::tan(closure->upper) > 2) continue;
     ++compared;
     const double critical = std::tan(closure->upper);

@@ -20,13 +20,13 @@ using namespace regrasp;
 /// If a sliding step passes the check, exact arithmetic must terminate, and must not prove anything
 /// that the check has refuted.
 void CheckCertificate(const plan::PlanCheck& check, std::size_t index) {
-  const auto* align = std::get_if<plan::Align>(&check.located.steps[index]);
+  const auto* align = std::get_if<plan::Align>(&check.projected.steps[index]);
   const plan::StepCheck& step = check.steps[index + 1];
   if (align == nullptr || !align->certificate || step.skipped) return;
   if (step.reason != plan::Reason::kNone && step.reason != plan::Reason::kNotForceClosure) return;
-  const double mu = std::tan(check.located.half_angle);
-  const motion::ProofVerdict verdict =
-      certificate::CheckAlignCertificate(*align, check.located.dimension, mu, *align->certificate);
+  const double mu = std::tan(check.projected.friction_angle);
+  const motion::ProofVerdict verdict = certificate::CheckAlignCertificate(
+      *align, check.projected.dimension, mu, *align->certificate);
   if (verdict.proves() && !step.force_closure) {
     ReportFinding("a certificate holds where the check refutes force closure");
   }

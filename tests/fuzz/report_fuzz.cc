@@ -21,14 +21,14 @@ using namespace regrasp;
 const std::string kObjectDigest(64, '0');
 const std::string kPlanDigest(64, '1');
 
-constexpr double kHalfAngleDegrees = 30;
+constexpr double kFrictionAngleDegrees = 30;
 
 /// Return a plan in which six fingers hold the cube, one of them is released, and the others then
 /// slide slightly.
 plan::Plan MakePlan() {
   plan::Plan plan;
   plan.dimension = 3;
-  plan.half_angle = Radians(kHalfAngleDegrees);
+  plan.friction_angle = Radians(kFrictionAngleDegrees);
   plan.fingers = 6;
   plan::FingerGrasp held;
   for (int axis = 0; axis < 3; ++axis) {

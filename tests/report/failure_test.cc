@@ -23,7 +23,7 @@ using testing::StartsWith;
 /// friction angle.
 Report FailingFor(Reason reason, double required_deg) {
   Report report;
-  report.half_angle = Radians(6);
+  report.friction_angle = Radians(6);
   report.steps.resize(2);
   report.steps[0].check.kind = "hold";
   report.steps[1].check.kind = "align";
@@ -31,7 +31,7 @@ Report FailingFor(Reason reason, double required_deg) {
   report.steps[1].check.reason = reason;
   report.steps[1].check.detail = "so far off";
   report.steps[1].check.required =
-      grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+      grasp::RequiredFrictionAngle{Radians(required_deg), Radians(required_deg)};
   return report;
 }
 
@@ -42,7 +42,7 @@ TEST(Failure, IsTheFirstStepThatFailsAndAPlanThatPassesHasNone) {
   EXPECT_EQ(failure->entry, 1);
   EXPECT_EQ(failure->headline(), "step 1 (align) fails: off-surface: so far off");
   EXPECT_EQ(FormatFailure(report), failure->headline() + "\n  why: " + failure->why +
-                                       "\n  help: " + failure->mend +
+                                       "\n  help: " + failure->suggested_fix +
                                        "\n  more: regrasp validate --explain off-surface\n");
   report.steps[1].check.reason = Reason::kNone;
   EXPECT_FALSE(DescribeFailure(report));
@@ -70,7 +70,7 @@ TEST(Failure, OfAPlanWhoseStepsPassAreTheTrialsThatFail) {
   EXPECT_EQ(failure->headline(),
             "trials-failed: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
   EXPECT_EQ(failure->why, "14 of 20 trials pass (70 %), --trials min-pass-rate requires 100 %");
-  EXPECT_THAT(failure->mend, Not(HasSubstr("min-pass-rate"))) << "loosens the test";
+  EXPECT_THAT(failure->suggested_fix, Not(HasSubstr("min-pass-rate"))) << "loosens the test";
   EXPECT_EQ(VerdictHeadline(report), failure->headline());
   EXPECT_EQ(HeadingText(report),
             "FAIL: 6 of 20 trials with noise fail: 6 slipped; first in step 1: 6");
@@ -87,7 +87,8 @@ TEST(Failure, NamesTheRequiredFrictionOnceAndInTheSameDigits) {
   for (const double required : {5.3201, 5.3249, 5.3299, 6.0004, 6.004}) {
     const Report report = FailingFor(Reason::kNotForceClosure, required);
     const std::string number = FormatRequiredDegrees(required, 6).value;
-    EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--friction-angle " + number + " "));
+    EXPECT_THAT(DescribeFailure(report)->suggested_fix,
+                HasSubstr("--friction-angle " + number + " "));
     if (required > 6) {
       EXPECT_GT(std::stod(number), 6);
     }
@@ -101,34 +102,34 @@ TEST(Failure, SaysForEveryReasonWhatItIsHeldAgainstAndWhatWouldMendIt) {
     const Failure failure = *DescribeFailure(FailingFor(reason, 7));
     EXPECT_EQ(failure.reason, plan::ReasonName(reason));
     EXPECT_NE(failure.why, "") << failure.reason;
-    EXPECT_NE(failure.mend, "") << failure.reason;
+    EXPECT_NE(failure.suggested_fix, "") << failure.reason;
     said.insert(failure.reason);
   }
   EXPECT_EQ(said.size(), 26u);
 }
 
 TEST(Failure, AsksForTheFrictionThatIsNeededRoundedUp) {
-  EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 7.3312))->mend,
+  EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 7.3312))->suggested_fix,
               HasSubstr("--friction-angle 7.34 or --mu 0.129;"));
-  EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 45))->mend,
+  EXPECT_THAT(DescribeFailure(FailingFor(Reason::kNotForceClosure, 45))->suggested_fix,
               HasSubstr("--friction-angle 45.00 or --mu 1;"));
   Report none = FailingFor(Reason::kNotForceClosure, 45);
   none.steps[1].check.required.reset();
-  EXPECT_THAT(DescribeFailure(none)->mend, Not(HasSubstr("--mu")));
+  EXPECT_THAT(DescribeFailure(none)->suggested_fix, Not(HasSubstr("--mu")));
 }
 
 TEST(Failure, OfAReplayGoesByTheLikelyCause) {
   Report report = FailingFor(Reason::kNone, 5);
   report.steps[1].replay.emplace().reason = Reason::kSlipped;
   report.steps[1].replay->detail = "finger 2 slipped";
-  const std::string unknown = DescribeFailure(report)->mend;
+  const std::string unknown = DescribeFailure(report)->suggested_fix;
   report.steps[1].disagreement =
       sim::Disagreement{sim::Between::kReplayFails, sim::Cause::kWeight, "too heavy"};
   const auto failure = DescribeFailure(report);
   EXPECT_EQ(failure->what, "finger 2 slipped");
   EXPECT_THAT(failure->why, EndsWith("; likely cause: too heavy"));
-  EXPECT_THAT(failure->mend, HasSubstr("--grasp-force"));
-  EXPECT_NE(failure->mend, unknown);
+  EXPECT_THAT(failure->suggested_fix, HasSubstr("--grasp-force"));
+  EXPECT_NE(failure->suggested_fix, unknown);
 }
 
 TEST(Failure, OfASlipTellsTheToleranceAsALength) {
@@ -144,38 +145,38 @@ TEST(Failure, DoesNotSuggestALooserTest) {
   Report report = FailingFor(Reason::kNone, 5);
   report.steps[1].replay.emplace().reason = Reason::kObjectMoved;
   report.settings.emplace();
-  report.settings->mass_kg = report.settings->squeeze_N = 1;
-  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("more friction"));
-  EXPECT_THAT(SqueezeText(*report.settings), Not(HasSubstr("the disturbance")));
-  report.settings->shake = 0.01;
+  report.settings->mass_kg = report.settings->grasp_force_N = 1;
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("more friction"));
+  EXPECT_THAT(GraspForceText(*report.settings), Not(HasSubstr("the disturbance")));
+  report.settings->disturbance_ratio = 0.01;
   for (const char* looser : {"smaller --disturbance", "larger --tolerance"}) {
-    EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr(looser)));
+    EXPECT_THAT(DescribeFailure(report)->suggested_fix, Not(HasSubstr(looser)));
   }
-  EXPECT_THAT(SqueezeText(*report.settings), HasSubstr("the weight is 10 % of the disturbance"));
+  EXPECT_THAT(GraspForceText(*report.settings), HasSubstr("the weight is 10 % of the disturbance"));
 }
 
 TEST(Failure, OfAWrongNormalTellsTheTrueOne) {
   Report report = FailingFor(Reason::kWrongNormal, 5);
   report.steps[1].check.fault.expected = {{{1, 2, 0}, {0.6, -0.8, 0}}};
-  EXPECT_THAT(DescribeFailure(report)->mend, EndsWith(": (0.6, -0.8, 0)"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, EndsWith(": (0.6, -0.8, 0)"));
   report.dimension = 2;
-  EXPECT_THAT(DescribeFailure(report)->mend, EndsWith(": (0.6, -0.8)"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, EndsWith(": (0.6, -0.8)"));
 }
 
 TEST(Failure, OfAContactThatNoFingerReachesSaysNothingOfThicknessWhereFingersArePoints) {
   Report report = FailingFor(Reason::kUnreachable, 5);
-  EXPECT_THAT(DescribeFailure(report)->mend, Not(HasSubstr("--finger-radius")));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, Not(HasSubstr("--finger-radius")));
   report.steps[1].check.fault.finger_radius = 0.01;
-  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--finger-radius"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("--finger-radius"));
 }
 
 TEST(Failure, OfAHandThatCollidesTellsTheClearanceThatThereIsIfThereIsOne) {
   Report report = FailingFor(Reason::kHandCollides, 5);
   plan::HandFaultPlace& place = report.steps[1].check.fault.hand.emplace();
   place.gap_m = 3e-4;
-  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("--clearance below 300 µm"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("--clearance below 300 µm"));
   place.gap_m = -3e-3;
-  EXPECT_THAT(DescribeFailure(report)->mend, HasSubstr("no --clearance"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("no --clearance"));
 }
 
 TEST(Failure, OfAGoalThatIsNotReachedKnowsContactsFromPoses) {

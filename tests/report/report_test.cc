@@ -25,7 +25,7 @@ ReportStep MakeStep(int index, const std::string& kind, double required_deg) {
   step.check.index = plan::EntryIndex(index);
   step.check.kind = kind;
   step.check.force_closure = true;
-  step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+  step.check.required = grasp::RequiredFrictionAngle{Radians(required_deg), Radians(required_deg)};
   step.replay = sim::StepReplay();
   step.replay->index = step.check.index;
   step.replay->displacement_m = 1e-6 * (index + 1);
@@ -37,7 +37,7 @@ Report MakeReport() {
   Report report;
   report.object_file = "cube.obj";
   report.plan_file = "plan.json";
-  report.half_angle = Radians(20);
+  report.friction_angle = Radians(20);
   report.settings = sim::ReplaySettings();
   report.steps = {MakeStep(0, "hold", 12), MakeStep(1, "switch", 17.5), MakeStep(2, "align", 15)};
   report.steps[2].replay->align_mode = sim::AlignMode::kImitated;
@@ -163,12 +163,12 @@ TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatIt
   Report report = MakeReport();
   report.measures = "10.4 cm across, 216 g";
   report.settings->mass_kg = 0.216;
-  report.settings->squeeze_N = 2119;
+  report.settings->grasp_force_N = 2119;
   const std::string usual = FormatReportTable(report);
   EXPECT_THAT(usual, HasSubstr("object: 10.4 cm across, 216 g\n"));
   EXPECT_THAT(usual, HasSubstr("grasp force: 2119 N, 1000 times the weight: default"));
   EXPECT_THAT(usual, HasSubstr("--grasp-force realistic"));
-  report.settings->squeeze_source = sim::SqueezeSource::kHand;
+  report.settings->grasp_force_source = sim::GraspForceSource::kHand;
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--grasp-force realistic")));
 }
 
@@ -187,7 +187,7 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   EXPECT_TRUE(agreed.passed());
   EXPECT_FALSE(agreed.steps.at(0).disagreement);
 
-  options.replay.shake = 0.1;
+  options.replay.disturbance_ratio = 0.1;
   const Report fixed = Validated(cube, plan, options);
   EXPECT_TRUE(fixed.passed()) << "the adapted response decides";
   ASSERT_TRUE(fixed.steps.at(0).disagreement);
@@ -195,8 +195,8 @@ TEST(ReportTest, TheReportOfAPlanNamesWhatItsExaminationsDisagreeAbout) {
   EXPECT_EQ(fixed.steps[0].disagreement->cause, sim::Cause::kConeReached);
   EXPECT_THAT(FormatReportTable(fixed), HasSubstr("a fixed grasp force fails, likely cause: "));
 
-  options.replay.shake = 0.01;
-  options.half_angle = Radians(5.6);
+  options.replay.disturbance_ratio = 0.01;
+  options.friction_angle = Radians(5.6);
   const Report weak = Validated(cube, plan, options);
   EXPECT_FALSE(weak.passed());
   ASSERT_TRUE(weak.steps.at(0).disagreement);

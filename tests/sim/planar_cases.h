@@ -30,9 +30,9 @@ inline plan::FingerContact DrawOnBoundary(const object::Polygon& polygon, int fi
 }
 
 /// Return a plan for a planar object, by default for a hand of four fingers.
-inline plan::Plan MakePlanarPlan(plan::FingerGrasp initial, double half_angle_deg,
+inline plan::Plan MakePlanarPlan(plan::FingerGrasp initial, double friction_angle_deg,
                                  int fingers = 4) {
-  plan::Plan plan = MakePlan(std::move(initial), half_angle_deg, fingers);
+  plan::Plan plan = MakePlan(std::move(initial), friction_angle_deg, fingers);
   plan.dimension = 2;
   return plan;
 }

@@ -25,9 +25,9 @@ inline grasp::Contact ContactAt(const object::Object& object, const Eigen::Vecto
   return contact;
 }
 
-inline plan::Plan MakePlan(plan::FingerGrasp initial, double half_angle_deg, int fingers = 5) {
+inline plan::Plan MakePlan(plan::FingerGrasp initial, double friction_angle_deg, int fingers = 5) {
   plan::Plan plan;
-  plan.half_angle = Radians(half_angle_deg);
+  plan.friction_angle = Radians(friction_angle_deg);
   plan.fingers = fingers;
   plan.initial = std::move(initial);
   return plan;

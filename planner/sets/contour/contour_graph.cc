@@ -33,9 +33,9 @@ std::int64_t CountCombinations(const std::vector<GraspPiece>& pieces) {
 
 }  // namespace
 
-ContourGraph::ContourGraph(const object::Polygon& polygon, double half_angle,
+ContourGraph::ContourGraph(const object::Polygon& polygon, double friction_angle,
                            const Deadline& deadline, const Tell& tell)
-    : boundary_(polygon), tangent_(CheckedTangent(half_angle)) {
+    : boundary_(polygon), tangent_(CheckedTangent(friction_angle)) {
   const polygon::IntervalScope scope;
   BeginVertices();
   const polygon::EdgeTable edges(polygon, tangent_);

@@ -66,10 +66,10 @@ struct Grouping {
 class ContourGraph final : public sets::SetGraph {
  public:
   /// @param polygon     must outlive this object.
-  /// @param half_angle  friction angle θ, rad.
+  /// @param friction_angle  friction angle θ, rad.
   /// @throws std::invalid_argument  if θ is not in (0, π/2).
   /// @throws TimeUp  if the deadline is reached.
-  ContourGraph(const object::Polygon& polygon, double half_angle, const Deadline& deadline = {},
+  ContourGraph(const object::Polygon& polygon, double friction_angle, const Deadline& deadline = {},
                const Tell& tell = {});
 
   [[nodiscard]] const Boundary& boundary() const { return boundary_; }

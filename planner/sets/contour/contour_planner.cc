@@ -141,9 +141,9 @@ sets::GraphSize CountOn(const std::vector<FaceIndex>& drawn, const polygon::Edge
           .switches = static_cast<double>(switches.size())};
 }
 
-MemoryNeed Estimate(const object::Polygon& polygon, double half_angle,
+MemoryNeed Estimate(const object::Polygon& polygon, double friction_angle,
                     const sets::GraphSize& bytes) {
-  const double tangent = std::tan(half_angle);  // before the processor rounds upward
+  const double tangent = std::tan(friction_angle);  // before the processor rounds upward
   const polygon::IntervalScope scope;
   const polygon::EdgeTable edges(polygon, tangent);
   RandomStream random(0, RandomUse::kCountedEdges);
@@ -169,14 +169,14 @@ MemoryNeed Estimate(const object::Polygon& polygon, double half_angle,
 
 }  // namespace
 
-MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle) {
-  return Estimate(polygon, half_angle, kBytes);
+MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double friction_angle) {
+  return Estimate(polygon, friction_angle, kBytes);
 }
 
-MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle) {
+MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double friction_angle) {
   sets::GraphSize bytes = kBytes;
   bytes.sets += kBytesOfOutline;
-  return Estimate(polygon, half_angle, bytes);
+  return Estimate(polygon, friction_angle, bytes);
 }
 
 namespace {
@@ -187,7 +187,7 @@ const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
 
 ContourGraph BuildGraph(const planning::PlanRequest& request) {
   request.progress("building the switching graph");
-  return ContourGraph(PolygonOf(request), request.criteria.half_angle, request.deadline,
+  return ContourGraph(PolygonOf(request), request.criteria.friction_angle, request.deadline,
                       request.progress);
 }
 
@@ -203,7 +203,7 @@ std::optional<MemoryNeed> ContourPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
   // Building a graph takes less memory than planning on it.
   const auto estimate = request.for_graph ? EstimateContourGraph : EstimateContourPlan;
-  return estimate(PolygonOf(request), request.criteria.half_angle);
+  return estimate(PolygonOf(request), request.criteria.friction_angle);
 }
 
 planning::PlanResult ContourPlanner::Plan(const planning::PlanRequest& request) const {

@@ -63,11 +63,12 @@ class ContourModel : public sets::EvaluatedModel<PlacedGrasp> {
 /// number of edges, the number of switches cubic. The memory per piece and per switch is measured.
 ///
 /// Law: the result is deterministic.
-[[nodiscard]] MemoryNeed EstimateContourGraph(const object::Polygon& polygon, double half_angle);
+[[nodiscard]] MemoryNeed EstimateContourGraph(const object::Polygon& polygon,
+                                              double friction_angle);
 
 /// Estimate the peak memory for planning: the graph and the geometry of the sets that the search
 /// evaluates.
-[[nodiscard]] MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double half_angle);
+[[nodiscard]] MemoryNeed EstimateContourPlan(const object::Polygon& polygon, double friction_angle);
 
 /// Planner between 2-finger grasps on the switching graph of a polygon's whole boundary (Phoka
 /// 2010, chapter IV), for a hand of three fingers.

@@ -34,7 +34,7 @@ Answer LiesOutside(const ConvexRegion<NT>& region,
 template <class NT>
 Answer Overlap(const ConvexRegion<NT>& a, const ConvexRegion<NT>& b) {
   Answer answer = Answer::kYes;
-  const auto look = [&](const ConvexRegion<NT>& with_side, const ConvexRegion<NT>& other) {
+  const auto examine = [&](const ConvexRegion<NT>& with_side, const ConvexRegion<NT>& other) {
     for (const auto& side : with_side.sides()) {
       const Answer separates = LiesOutside(other, side);
       if (separates == Answer::kYes) return true;
@@ -42,7 +42,7 @@ Answer Overlap(const ConvexRegion<NT>& a, const ConvexRegion<NT>& b) {
     }
     return false;
   };
-  return look(a, b) || look(b, a) ? Answer::kNo : answer;
+  return examine(a, b) || examine(b, a) ? Answer::kNo : answer;
 }
 
 Interval ToInterval(const Exact& x) { return Interval(CGAL::to_interval(x)); }

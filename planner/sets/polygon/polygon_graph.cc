@@ -235,11 +235,11 @@ class SwitchFinder {
 
 }  // namespace
 
-PolygonGraph::PolygonGraph(const object::Polygon& polygon, double half_angle,
+PolygonGraph::PolygonGraph(const object::Polygon& polygon, double friction_angle,
                            planning::Spanning spanning, const Deadline& deadline,
                            const Tell& tell) {
   // Computed before the processor rounds upward.
-  const double tangent = CheckedTangent(half_angle);
+  const double tangent = CheckedTangent(friction_angle);
   const IntervalScope scope;
   BeginVertices();
   const EdgeTable edges(polygon, tangent);

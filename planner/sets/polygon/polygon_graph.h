@@ -33,10 +33,10 @@ namespace regrasp::polygon {
 class PolygonGraph final : public sets::SetGraph {
  public:
   /// Build the graph; `tell` receives the progress.
-  /// @param half_angle  friction angle θ, rad.
+  /// @param friction_angle  friction angle θ, rad.
   /// @throws std::invalid_argument  if θ is not in (0, π/2).
   /// @throws TimeUp  if the deadline is reached.
-  PolygonGraph(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
+  PolygonGraph(const object::Polygon& polygon, double friction_angle, planning::Spanning spanning,
                const Deadline& deadline = {}, const Tell& tell = {});
 
   /// Sets in the order concurrent, two-finger, parallel; within a type sorted by edges. All

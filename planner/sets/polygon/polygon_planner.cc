@@ -59,9 +59,9 @@ constexpr double kBytesOfPair = 24;
 
 }  // namespace
 
-MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angle,
+MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double friction_angle,
                                 planning::Spanning spanning) {
-  const double tangent = std::tan(half_angle);  // before the processor rounds upward
+  const double tangent = std::tan(friction_angle);  // before the processor rounds upward
   const IntervalScope scope;
   const std::vector<FaceIndex> drawn =
       sets::DrawFaces(polygon, kCountedEdges, RandomStream(0, RandomUse::kCountedEdges));
@@ -107,7 +107,8 @@ PolygonModel::Attachments PolygonModel::Attach(const grasp::Grasp& grasp) {
   const auto add = [&](Attachments attachments) {
     for (sets::Attachment<Place>& a : attachments) {
       // The sequence contains the grasp itself in any case, so its score does not matter.
-      const double score = a.whole ? evaluator().half_angle() : evaluator().Score(GraspOf(a.place));
+      const double score =
+          a.whole ? evaluator().friction_angle() : evaluator().Score(GraspOf(a.place));
       scored.emplace_back(score, std::move(a));
     }
   };
@@ -169,8 +170,8 @@ const object::Polygon& PolygonOf(const planning::PlanRequest& request) {
 }
 
 PolygonGraph BuildGraph(const planning::PlanRequest& request) {
-  return PolygonGraph(PolygonOf(request), request.criteria.half_angle, sets::SpanningOf(request),
-                      request.deadline, request.progress);
+  return PolygonGraph(PolygonOf(request), request.criteria.friction_angle,
+                      sets::SpanningOf(request), request.deadline, request.progress);
 }
 
 std::string NameOf(GraspType type) {
@@ -202,7 +203,7 @@ PolygonPlanner::PolygonPlanner()
 
 std::optional<MemoryNeed> PolygonPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  return EstimatePolygonGraph(PolygonOf(request), request.criteria.half_angle,
+  return EstimatePolygonGraph(PolygonOf(request), request.criteria.friction_angle,
                               sets::SpanningOf(request));
 }
 

@@ -32,7 +32,7 @@ namespace regrasp::polygon {
 /// edges)². The memory per vertex and per switch is measured.
 ///
 /// Laws: the result is deterministic; all edges are counted if there are at most forty.
-[[nodiscard]] MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double half_angle,
+[[nodiscard]] MemoryNeed EstimatePolygonGraph(const object::Polygon& polygon, double friction_angle,
                                               planning::Spanning spanning);
 
 /// Model of the grasp sets of a polygon's switching graph (GraspSetModel).

@@ -141,12 +141,12 @@ std::vector<Vector3d> ContactRegion(const FacePart& part, const Vector3d& focus,
 }  // namespace
 
 std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid, const grasp::Grasp& grasp,
-                                       double half_angle) {
+                                       double friction_angle) {
   if (grasp.size() != kContacts) return std::nullopt;
   std::vector<Vector3d> normals;
   for (const grasp::Contact& contact : grasp) normals.push_back(solid.inward_normal(contact.face));
   const auto candidates =
-      FindQuadrupleCandidates(normals, std::tan(half_angle), planning::Spanning::kAdaptive);
+      FindQuadrupleCandidates(normals, std::tan(friction_angle), planning::Spanning::kAdaptive);
   if (candidates.empty()) return std::nullopt;
   const double tangent = candidates.front().tangent;
   FocusCellFinder finder(solid, tangent);

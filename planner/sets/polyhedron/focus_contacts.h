@@ -35,9 +35,10 @@ struct FocusView {
 };
 
 /// Find the focus point of four contacts whose faces are set, with cones of angle φ = min(θ, φ*).
-/// @param half_angle  friction angle θ, rad.
+/// @param friction_angle  friction angle θ, rad.
 /// @returns nullopt if the grasp is not concurrent or does not have four contacts.
 [[nodiscard]] std::optional<FocusView> DescribeFocus(const object::Polyhedron& solid,
-                                                     const grasp::Grasp& grasp, double half_angle);
+                                                     const grasp::Grasp& grasp,
+                                                     double friction_angle);
 
 }  // namespace regrasp::polyhedron

@@ -7,13 +7,13 @@
 
 namespace regrasp::polyhedron {
 
-PolyhedronGraph::PolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+PolyhedronGraph::PolyhedronGraph(const object::Polyhedron& solid, double friction_angle,
                                  planning::Spanning spanning, const Deadline& deadline,
                                  const Tell& tell)
-    : finder_(solid, CheckedTangent(half_angle)) {
+    : finder_(solid, CheckedTangent(friction_angle)) {
   BeginVertices();
   const auto candidates =
-      FindQuadrupleCandidates(solid, CheckedTangent(half_angle), spanning, deadline);
+      FindQuadrupleCandidates(solid, CheckedTangent(friction_angle), spanning, deadline);
   candidates_ = std::ssize(candidates);
   CountedProgress progress(tell, "testing quadruples of faces", candidates_);
   for (const QuadrupleCandidate& candidate : candidates) {

@@ -25,11 +25,12 @@ namespace regrasp::polyhedron {
 class PolyhedronGraph final : public sets::SetGraph {
  public:
   /// Build the graph; `tell` receives the progress.
-  /// @param half_angle  friction angle θ, rad.
+  /// @param friction_angle  friction angle θ, rad.
   /// @throws std::invalid_argument  if θ is not in (0, π/2).
   /// @throws TimeUp  if the deadline is reached.
-  PolyhedronGraph(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
-                  const Deadline& deadline = {}, const Tell& tell = {});
+  PolyhedronGraph(const object::Polyhedron& solid, double friction_angle,
+                  planning::Spanning spanning, const Deadline& deadline = {},
+                  const Tell& tell = {});
 
   /// Cells, sorted by faces. switches() is ascending.
   [[nodiscard]] const std::vector<FocusCell>& cells() const { return cells_; }

@@ -32,15 +32,15 @@ constexpr double kCellsOfCandidate = 0.75;
 
 }  // namespace
 
-MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double friction_angle,
                                    planning::Spanning spanning) {
   std::vector<Eigen::Vector3d> normals;
   for (const FaceIndex face :
        sets::DrawFaces(solid, kCountedFaces, RandomStream(0, RandomUse::kCountedFaces))) {
     normals.push_back(solid.inward_normal(face));
   }
-  const auto counted =
-      static_cast<double>(FindQuadrupleCandidates(normals, std::tan(half_angle), spanning).size());
+  const auto counted = static_cast<double>(
+      FindQuadrupleCandidates(normals, std::tan(friction_angle), spanning).size());
   const double m = static_cast<double>(normals.size());
   return sets::NeedOfGraph("polyhedron", solid, [=](double n) {
     const double candidates = sets::ScaleUp(counted, 4, m, n);
@@ -63,7 +63,7 @@ planning::GraphSummary SummarizeSampled(PolyhedronGraph& graph,
   const auto region = FindSamplingRegion(SolidOf(request), graph, request.deadline);
   Stopwatch stopwatch;
   const SampledGraph sampled =
-      SamplePolyhedron(SolidOf(request), request.criteria.half_angle, sets::SpanningOf(request),
+      SamplePolyhedron(SolidOf(request), request.criteria.friction_angle, sets::SpanningOf(request),
                        region, request.parameters.Get<PolyhedronParameters>().focus_points,
                        request.seed, request.deadline, request.progress);
   summary.vertex_seconds = stopwatch.Lap();
@@ -89,7 +89,7 @@ PolyhedronPlanner::PolyhedronPlanner(PolyhedronGraph* graph)
 
 std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
     const planning::PlanRequest& request) const {
-  return EstimatePolyhedronGraph(SolidOf(request), request.criteria.half_angle,
+  return EstimatePolyhedronGraph(SolidOf(request), request.criteria.friction_angle,
                                  sets::SpanningOf(request));
 }
 
@@ -97,7 +97,7 @@ PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& reques
                                              std::optional<PolyhedronGraph>& own) const {
   if (graph_ != nullptr) return *graph_;
   request.progress("looking for quadruples of faces");
-  return own.emplace(SolidOf(request), request.criteria.half_angle, sets::SpanningOf(request),
+  return own.emplace(SolidOf(request), request.criteria.friction_angle, sets::SpanningOf(request),
                      request.deadline, request.progress);
 }
 

@@ -33,7 +33,8 @@ struct PolyhedronParameters {
 /// cells are measured, and so is the memory per element.
 ///
 /// Laws: the result is deterministic; all candidates are counted if there are at most sixty faces.
-[[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid, double half_angle,
+[[nodiscard]] MemoryNeed EstimatePolyhedronGraph(const object::Polyhedron& solid,
+                                                 double friction_angle,
                                                  planning::Spanning spanning);
 
 /// Planner between concurrent grasps of four fingers on four faces of a solid (Phoka 2010, chapter

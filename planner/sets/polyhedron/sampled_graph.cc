@@ -64,9 +64,9 @@ using CandidateIndex = Index<struct CandidateTag>;
 /// Collects the quadruples that points see.
 class Sampler {
  public:
-  Sampler(const object::Polyhedron& solid, double half_angle, planning::Spanning spanning,
+  Sampler(const object::Polyhedron& solid, double friction_angle, planning::Spanning spanning,
           const Deadline& deadline)
-      : finder_(solid, std::tan(half_angle)), tangent_(std::tan(half_angle)) {
+      : finder_(solid, std::tan(friction_angle)), tangent_(std::tan(friction_angle)) {
     candidates_ = FindQuadrupleCandidates(solid, tangent_, spanning, deadline);
     found_.assign(candidates_.size(), 0);
     seen_.assign(solid.face_count(), 0);
@@ -154,10 +154,10 @@ AlignedBox3d FindSamplingRegion(const object::Polyhedron& solid, PolyhedronGraph
   return box;
 }
 
-SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
+SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double friction_angle,
                               planning::Spanning spanning, const AlignedBox3d& region, int points,
                               std::uint64_t seed, const Deadline& deadline, const Tell& tell) {
-  Sampler sampler(solid, half_angle, spanning, deadline);
+  Sampler sampler(solid, friction_angle, spanning, deadline);
   RandomStream random(seed, RandomUse::kFocusPoints);
   CountedProgress progress(tell, "sampling focus points", points);
   for (int i = 0; i < points && !region.isEmpty(); ++i) {

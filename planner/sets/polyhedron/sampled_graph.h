@@ -41,7 +41,7 @@ struct SampledGraph {
 /// @param points  number of points.
 /// @param seed  seed of the points; the result is deterministic.
 /// @throws TimeUp  if the deadline is reached.
-[[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double half_angle,
+[[nodiscard]] SampledGraph SamplePolyhedron(const object::Polyhedron& solid, double friction_angle,
                                             planning::Spanning spanning,
                                             const Eigen::AlignedBox3d& region, int points,
                                             std::uint64_t seed, const Deadline& deadline = {},

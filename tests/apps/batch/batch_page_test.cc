@@ -57,7 +57,7 @@ TEST(BatchPageTest, APlanThatFailsShowsWhatFailedAndOneThatPassesItsSheet) {
 
 TEST(BatchPageTest, WhatIsToSpareIsNotToldOfAPlanThatFailsElsewhere) {
   PlanOutcome lacking = Failed("lacking");
-  lacking.report->required_half_angle_deg = 21.5;
+  lacking.report->required_friction_angle_deg = 21.5;
   const std::string page = FormatBatchPage({{Failed("slips"), lacking, Passed("good")}, {}});
   EXPECT_THAT(CardOf(page, "slips"), Not(HasSubstr("Weakest")));
   EXPECT_THAT(CardOf(page, "lacking"), HasSubstr("<dd>1.50° missing in step 1</dd>"));

@@ -61,7 +61,7 @@ TEST_F(LineOutputTest, AppearsAsAWholeWhenAllEntriesAreThere) {
   output.Finish();
   EXPECT_EQ(ReadFile(path_), Whole());
   EXPECT_FALSE(fs::exists(part_));
-  EXPECT_EQ(output.tally(), (Tally{{Outcome::kNoPlan, 3}}));
+  EXPECT_EQ(output.counts(), (OutcomeCounts{{Outcome::kNoPlan, 3}}));
 }
 
 TEST_F(LineOutputTest, GoesOnBehindTheLastWholeEntryWhereverAPartWasCut) {

@@ -98,10 +98,11 @@ TEST(LineRecordTest, IsToldByItsEntryAndWhatItCameTo) {
   EXPECT_EQ(OutcomeOf("", 7), std::nullopt);
 }
 
-TEST(TallyTest, CountsInTheOrderOfWhatIsGoodFirst) {
-  EXPECT_EQ(TallyText({}), "0 entries");
-  EXPECT_EQ(TallyText({{Outcome::kPlan, 1}}), "1 entry: 1 plan");
-  EXPECT_EQ(TallyText({{Outcome::kError, 2}, {Outcome::kPass, 3}}), "5 entries: 3 pass, 2 error");
+TEST(OutcomeCountsTest, CountsInTheOrderOfWhatIsGoodFirst) {
+  EXPECT_EQ(OutcomeCountsText({}), "0 entries");
+  EXPECT_EQ(OutcomeCountsText({{Outcome::kPlan, 1}}), "1 entry: 1 plan");
+  EXPECT_EQ(OutcomeCountsText({{Outcome::kError, 2}, {Outcome::kPass, 3}}),
+            "5 entries: 3 pass, 2 error");
 }
 
 }  // namespace line_records_test

@@ -59,7 +59,7 @@ TEST_F(MergeLinesTest, ShardsInAnyOrderGiveTheBytesOfOneRun) {
     std::vector<fs::path> files = WriteShards(count);
     std::rotate(files.begin(), files.begin() + count / 2, files.end());
     EXPECT_EQ(MergeLines(FindShards(files), merged(), false),
-              (Tally{{Outcome::kNoPlan, kEntries}}));
+              (OutcomeCounts{{Outcome::kNoPlan, kEntries}}));
     EXPECT_EQ(ReadFile(merged()), Text(HeaderOf({})));
     fs::remove(merged());
     ++checked;

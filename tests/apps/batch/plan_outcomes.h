@@ -14,12 +14,12 @@ inline PlanOutcome Passed(const std::string& name) {
   report.passed = true;
   report.object = "cube.obj";
   report.size = "10.4 cm across, 216 g";
-  report.half_angle_deg = 20;
+  report.friction_angle_deg = 20;
   report.entries = {{"hold", "pass", "", "", "000_hold.png"},
                     {"switch", "pass", "", "", "001_switch.png"}};
   report.files = {{"000_hold.png", ""}, {"overview.png", ""}};
   report.weakest_step = 1;
-  report.required_half_angle_deg = 17.25;
+  report.required_friction_angle_deg = 17.25;
   return plan;
 }
 

@@ -32,16 +32,16 @@ TEST(ReportSummaryTest, TellsWhatTheReportSays) {
   EXPECT_EQ(summary.entries[1].reason, "slipped");
   EXPECT_EQ(summary.entries[1].detail, "finger 2 slipped");
   EXPECT_EQ(summary.entries[1].why, "nothing may slip");
-  EXPECT_EQ(summary.entries[1].mend, "more friction");
-  EXPECT_EQ(summary.entries[0].mend, "");
+  EXPECT_EQ(summary.entries[1].suggested_fix, "more friction");
+  EXPECT_EQ(summary.entries[0].suggested_fix, "");
   EXPECT_EQ(summary.entries[2].verdict, "skipped");
   EXPECT_EQ(summary.failed_step(), 1);
   EXPECT_EQ(summary.object, "cube.obj");
   EXPECT_EQ(summary.size, "10.4 cm across, 216 g");
   EXPECT_EQ(summary.planner, "roadmap");
-  EXPECT_EQ(summary.half_angle_deg, 20);
+  EXPECT_EQ(summary.friction_angle_deg, 20);
   EXPECT_EQ(summary.weakest_step, 1);
-  EXPECT_EQ(summary.required_half_angle_deg, 17.5);
+  EXPECT_EQ(summary.required_friction_angle_deg, 17.5);
 }
 
 TEST(ReportSummaryTest, WhatAReportLeavesOutIsLeftOut) {
@@ -54,9 +54,9 @@ TEST(ReportSummaryTest, WhatAReportLeavesOutIsLeftOut) {
   const ReportSummary summary = SummarizeReport(json, "report.json");
   EXPECT_EQ(summary.run, "");
   EXPECT_EQ(summary.object + summary.size + summary.planner, "");
-  EXPECT_FALSE(summary.half_angle_deg);
+  EXPECT_FALSE(summary.friction_angle_deg);
   EXPECT_FALSE(summary.weakest_step);
-  EXPECT_FALSE(summary.required_half_angle_deg);
+  EXPECT_FALSE(summary.required_friction_angle_deg);
 }
 
 TEST(ReportSummaryTest, WhatIsNoReportIsRefusedWithItsPlace) {

@@ -96,11 +96,11 @@ TEST(Scoreboard, RefusesAPlanForAnotherHandOrMoreFriction) {
   plan.hand.reset();
   EXPECT_THAT(Refusal(given.task, given.cube, plan), HasSubstr("/hand: the plan is for no hand"));
   plan = *given.planned.plan;
-  plan.half_angle = std::atan(0.9);
+  plan.friction_angle = std::atan(0.9);
   EXPECT_THAT(Refusal(given.task, given.cube, plan), HasSubstr("friction is 0.9, more than 0.8"));
-  plan.half_angle = std::atan(0.801);
+  plan.friction_angle = std::atan(0.801);
   EXPECT_THAT(Refusal(given.task, given.cube, plan), HasSubstr("more than 0.8"));
-  plan.half_angle = std::atan(0.8);
+  plan.friction_angle = std::atan(0.8);
   EXPECT_EQ(Refusal(given.task, given.cube, plan), "");
 }
 

@@ -15,19 +15,19 @@ int main(int argc, char** argv) {
   const regrasp::object::ObjectFile file = regrasp::object::ReadObject(argv[1]);
   const regrasp::object::Object& cube = *file.object;
   const double half = 0.03;  // of the cube's edge
-  const double half_angle = regrasp::Radians(30);
+  const double friction_angle = regrasp::Radians(30);
   const regrasp::grasp::Grasp grasp = {{{-half, 0, 0}, {1, 0, 0}},
                                        {{half, 0, 0}, {-1, 0, 0}},
                                        {{0, -half, 0}, {0, 1, 0}},
                                        {{0, half, 0.0}, {0, -1, 0}}};
-  const bool closed = regrasp::grasp::IsForceClosure(grasp, cube.wrench_frame(), half_angle);
-  regrasp::plan::Plan hold = regrasp::validation::MakeHoldPlan(cube, grasp, half_angle, 1);
+  const bool closed = regrasp::grasp::IsForceClosure(grasp, cube.wrench_frame(), friction_angle);
+  regrasp::plan::Plan hold = regrasp::validation::MakeHoldPlan(cube, grasp, friction_angle, 1);
   hold.object_file = file.file;
   hold.object_sha256 = file.sha256;
   const regrasp::plan::Plan plan =
       regrasp::plan::ParsePlan(regrasp::plan::FormatPlan(hold), "hold.json");
   const bool scene =
-      !regrasp::sim::SceneMjcf(cube, regrasp::plan::LocatePlan(cube, plan), {}).empty();
+      !regrasp::sim::SceneMjcf(cube, regrasp::plan::ProjectPlan(cube, plan), {}).empty();
   const regrasp::report::Report report =
       regrasp::validation::Validate({.object = cube, .plan = plan}).report;
   const bool passed = report.passed();

@@ -15,8 +15,8 @@ namespace align_certificate_test {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfAngle = Radians(20);
-const double kMu = std::tan(kHalfAngle);
+constexpr double kFrictionAngle = Radians(20);
+const double kMu = std::tan(kFrictionAngle);
 
 /// Return a sliding step with two motions over the sides of a cube. Its waypoints list the fingers
 /// in different orders.
@@ -35,7 +35,7 @@ plan::Align MakeAlign() {
 
 TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
   const plan::Align align = MakeAlign();
-  const auto certificate = FindAlignCertificate(align, 3, kHalfAngle);
+  const auto certificate = FindAlignCertificate(align, 3, kFrictionAngle);
   ASSERT_TRUE(certificate);
   ASSERT_EQ(certificate->size(), 2U);
   const motion::ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, *certificate);
@@ -51,7 +51,7 @@ TEST(AlignCertificateTest, EachWayIsProvedInTheOrderOfItsFirstWaypoint) {
 
 TEST(AlignCertificateTest, ForcesInAnotherOrderProveNothing) {
   const plan::Align align = MakeAlign();
-  plan::AlignCertificate wrong = *FindAlignCertificate(align, 3, kHalfAngle);
+  plan::AlignCertificate wrong = *FindAlignCertificate(align, 3, kFrictionAngle);
   std::ranges::reverse(wrong[1][0].start);
   const motion::ProofVerdict verdict = CheckAlignCertificate(align, 3, kMu, wrong);
   EXPECT_FALSE(verdict.proves());
@@ -60,14 +60,14 @@ TEST(AlignCertificateTest, ForcesInAnotherOrderProveNothing) {
 
 TEST(AlignCertificateTest, OfAnotherAlignOrLessFrictionOrTooFewWaysProvesNothing) {
   const plan::Align align = MakeAlign();
-  const plan::AlignCertificate certificate = *FindAlignCertificate(align, 3, kHalfAngle);
+  const plan::AlignCertificate certificate = *FindAlignCertificate(align, 3, kFrictionAngle);
   plan::Align other = align;
   other.waypoints[1][0].contact.p.x() += 0.85;
   EXPECT_FALSE(CheckAlignCertificate(other, 3, kMu, certificate).proves());
   other = align;
   other.waypoints[1].pop_back();
   EXPECT_FALSE(CheckAlignCertificate(other, 3, kMu, certificate).proves());
-  EXPECT_FALSE(FindAlignCertificate(other, 3, kHalfAngle));
+  EXPECT_FALSE(FindAlignCertificate(other, 3, kFrictionAngle));
   EXPECT_FALSE(CheckAlignCertificate(align, 3, kMu / 10, certificate).proves());
   EXPECT_FALSE(CheckAlignCertificate(align, 3, kMu, {certificate[0]}).proves());
   EXPECT_FALSE(FindAlignCertificate(align, 3, Radians(1)));
@@ -77,7 +77,7 @@ TEST(AlignCertificateTest, PlansGetTheCertificatesThatTheyLack) {
   const object::ObjectFile cube = object::ReadObject(ProjectPath("models/cube.obj"));
   const double side = cube.object->diameter() / std::sqrt(12.0);
   plan::Plan plan;
-  plan.half_angle = kHalfAngle;
+  plan.friction_angle = kFrictionAngle;
   plan.fingers = 5;
   plan::Align align = MakeAlign();
   for (plan::FingerGrasp& waypoint : align.waypoints) {

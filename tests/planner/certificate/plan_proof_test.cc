@@ -17,8 +17,8 @@ namespace plan_proof_test {
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
 
-constexpr double kHalfAngle = Radians(20);
-const double kMu = std::tan(kHalfAngle);
+constexpr double kFrictionAngle = Radians(20);
+const double kMu = std::tan(kFrictionAngle);
 
 grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, {}}; }
 
@@ -26,7 +26,7 @@ grasp::Contact At(const Vector3d& p, const Vector3d& n) { return {p, n, {}}; }
 /// step.
 plan::Plan MakeCubePlan() {
   plan::Plan plan;
-  plan.half_angle = kHalfAngle;
+  plan.friction_angle = kFrictionAngle;
   plan.fingers = 5;
   plan.initial = {{FingerIndex(0), At({1, 0.1, 0}, -Vector3d::UnitX())},
                   {FingerIndex(1), At({-1, 0, 0.1}, Vector3d::UnitX())},
@@ -50,7 +50,7 @@ EntryProof WrittenAndRead(const EntryProof& proof) {
 
 TEST(PlanProofTest, EveryEntryIsProvedBeforeAndAfterItIsWritten) {
   const plan::Plan plan = MakeCubePlan();
-  std::vector<EntryProof> proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  std::vector<EntryProof> proofs = FindPlanProofs(plan, kFrictionAngle, 3);
   ASSERT_EQ(proofs.size(), 3U);
   ASSERT_EQ(proofs[2].motions.size(), 1U);
   for (int round = 0; round < 2; ++round) {
@@ -79,7 +79,7 @@ plan::Plan AlignInOnePlane(double half, double lean, double apart) {
     return held;
   };
   plan::Plan plan;
-  plan.half_angle = Radians(45);
+  plan.friction_angle = Radians(45);
   plan.fingers = 5;
   plan.initial = grasp(0.1 * apart);
   plan.steps = {plan::Align{{plan.initial, grasp(apart)}}};
@@ -98,13 +98,13 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
         plan::Plan plan = AlignInOnePlane(half, lean, apart);
         const auto needed = plan::CheckPlan(*file.object, plan).steps[1].required;
         ASSERT_TRUE(needed);
-        plan.half_angle = needed->upper + above;
+        plan.friction_angle = needed->upper + above;
         const plan::PlanCheck check = plan::CheckPlan(*file.object, plan);
         ASSERT_TRUE(check.passed()) << check.steps[1].detail;
-        std::vector<EntryProof> proofs = FindPlanProofs(check.located, plan.half_angle, 2);
+        std::vector<EntryProof> proofs = FindPlanProofs(check.projected, plan.friction_angle, 2);
         for (EntryProof& proof : proofs) proof = WrittenAndRead(proof);
         for (const EntryVerdict& verdict :
-             CheckPlanProofs(check.located, std::tan(plan.half_angle), proofs)) {
+             CheckPlanProofs(check.projected, std::tan(plan.friction_angle), proofs)) {
           SCOPED_TRACE(testing::Message() << lean << " " << apart << " " << above);
           EXPECT_TRUE(verdict.rest.proves()) << verdict.index << verdict.rest.why;
           for (const motion::ProofVerdict& motion : verdict.motions)
@@ -120,20 +120,20 @@ TEST(PlanProofTest, EveryAlignThatTheCheckPassesIsProvedInWriting) {
 TEST(PlanProofTest, ThePlansOwnProofsAreTakenWhereTheyHold) {
   plan::Plan plan = MakeCubePlan();
   auto& align = std::get<plan::Align>(plan.steps[1]);
-  align.certificate = FindPlanProofs(plan, kHalfAngle, 3)[2].motions;
+  align.certificate = FindPlanProofs(plan, kFrictionAngle, 3)[2].motions;
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= 0.5;
   for (Vector3d& force : (*align.certificate)[0][0].end) force *= 0.5;
   const motion::MotionSegment given = (*align.certificate)[0][0];
-  EXPECT_EQ(FindPlanProofs(plan, kHalfAngle, 3)[2].motions[0][0].start, given.start);
+  EXPECT_EQ(FindPlanProofs(plan, kFrictionAngle, 3)[2].motions[0][0].start, given.start);
   for (Vector3d& force : (*align.certificate)[0][0].start) force *= -1;
-  const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  const auto proofs = FindPlanProofs(plan, kFrictionAngle, 3);
   EXPECT_NE(proofs[2].motions[0][0].start, (*align.certificate)[0][0].start);
   EXPECT_TRUE(CheckPlanProofs(plan, kMu, proofs)[2].proved());
 }
 
 TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
   const plan::Plan plan = MakeCubePlan();
-  const auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  const auto proofs = FindPlanProofs(plan, kFrictionAngle, 3);
   plan::Plan other = plan;
   other.initial[0].contact.p.y() += 0.7;
   EXPECT_FALSE(CheckPlanProofs(other, kMu, proofs)[0].proved());
@@ -142,7 +142,7 @@ TEST(PlanProofTest, ProofsOfAnotherPlanProveNothing) {
 
 TEST(PlanProofTest, AWayWithoutAProofIsNotProved) {
   const plan::Plan plan = MakeCubePlan();
-  auto proofs = FindPlanProofs(plan, kHalfAngle, 3);
+  auto proofs = FindPlanProofs(plan, kFrictionAngle, 3);
   proofs[2].motions.clear();
   const auto verdicts = CheckPlanProofs(plan, kMu, proofs);
   EXPECT_EQ(verdicts[2].rest.kind, Kind::kForceClosure);
@@ -153,14 +153,14 @@ TEST(PlanProofTest, AGraspThatLosesTheObjectIsRefuted) {
   plan::Plan plan = MakeCubePlan();
   plan.steps[0] = plan::Switch{{}, {FingerIndex(0), FingerIndex(1)}};
   plan.steps.pop_back();
-  const auto proofs = FindPlanProofs(plan, kHalfAngle, 2);
+  const auto proofs = FindPlanProofs(plan, kFrictionAngle, 2);
   for (const auto& proof : {proofs[1], WrittenAndRead(proofs[1])}) {
     const std::vector<EntryProof> both = {proofs[0], proof};
     EXPECT_EQ(CheckPlanProofs(plan, kMu, both)[1].rest.kind, Kind::kNotForceClosure);
   }
   plan.steps[0] = plan::Switch{{}, {FingerIndex(2)}};
   plan.initial[1].contact.p.y() = 0.9;
-  const auto three = FindPlanProofs(plan, kHalfAngle, 2);
+  const auto three = FindPlanProofs(plan, kFrictionAngle, 2);
   EXPECT_EQ(CheckPlanProofs(plan, kMu, three)[1].rest.kind, Kind::kNotForceClosure);
   EXPECT_EQ(
       CheckPlanProofs(plan, kMu, std::vector<EntryProof>{three[0], WrittenAndRead(three[1])})[1]

@@ -7,7 +7,7 @@
 #include "planner/certificate/check_proof.h"
 #include "planner/certificate/force_proof.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/planner/motion/random_boxes.h"
 
 namespace regrasp::certificate {
@@ -16,8 +16,8 @@ namespace proof_test {
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
 
-constexpr double kHalfAngle = Radians(20);
-const double kMu = std::tan(kHalfAngle);
+constexpr double kFrictionAngle = Radians(20);
+const double kMu = std::tan(kFrictionAngle);
 
 void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
   motion::RandomBoxes random(dimension);
@@ -26,8 +26,8 @@ void ExpectProofsAgreeWithTheTest(int dimension, int contacts) {
   for (int i = 0; i < 300; ++i) {
     const grasp::Grasp grasp = random.Draw(contacts);
     const grasp::ForceClosure test =
-        grasp::TestForceClosure(grasp, motion::FrameOf(dimension), kHalfAngle);
-    const GraspProof proof = FindGraspProof(grasp, dimension, kHalfAngle);
+        grasp::TestForceClosure(grasp, motion::FrameOf(dimension), kFrictionAngle);
+    const GraspProof proof = FindGraspProof(grasp, dimension, kFrictionAngle);
     const motion::ProofVerdict verdict = CheckGraspProof(grasp, dimension, kMu, proof);
     if (verdict.kind == Kind::kForceClosure) {
       EXPECT_EQ(test.decision, grasp::Decision::kYes);
@@ -54,16 +54,16 @@ TEST(ProofTest, ProofsOfRandomGraspsHoldExactlyAndAgreeWithTheTest) {
 
 TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
-  const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
+  const GraspProof proof = FindGraspProof(grasp, 3, kFrictionAngle);
   ASSERT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
   // Additional friction never invalidates a proof of force closure.
   EXPECT_EQ(CheckGraspProof(grasp, 3, 2 * kMu, proof).kind, Kind::kForceClosure);
-  const auto required = grasp::ComputeRequiredHalfAngle(grasp, {Vector3d::Zero(), 1, 3});
+  const auto required = grasp::ComputeRequiredFrictionAngle(grasp, {Vector3d::Zero(), 1, 3});
   ASSERT_TRUE(required);
   for (const double above : {1e-2, 1e-4, 1e-6}) {
-    const double half_angle = required->upper + above;
-    const GraspProof near = FindGraspProof(grasp, 3, half_angle);
-    EXPECT_EQ(CheckGraspProof(grasp, 3, std::tan(half_angle), near).kind, Kind::kForceClosure)
+    const double friction_angle = required->upper + above;
+    const GraspProof near = FindGraspProof(grasp, 3, friction_angle);
+    EXPECT_EQ(CheckGraspProof(grasp, 3, std::tan(friction_angle), near).kind, Kind::kForceClosure)
         << above;
     EXPECT_EQ(CheckGraspProof(grasp, 3, std::tan(required->lower - above), near).kind,
               Kind::kNothing);
@@ -76,7 +76,7 @@ TEST(ProofTest, ProofsHoldDownToTheRequiredFrictionAndNotBelow) {
 
 TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
-  const GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
+  const GraspProof proof = FindGraspProof(grasp, 3, kFrictionAngle);
   GraspProof wrong = proof;
   wrong.forces[2] += Vector3d(0.5, 0, 0);  // large imbalance, and therefore a large correction
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, wrong).kind, Kind::kNothing);
@@ -99,7 +99,7 @@ TEST(ProofTest, ForcesThatDoNotProveAreRefused) {
 
 TEST(ProofTest, WrittenDecimalsStillProve) {
   const grasp::Grasp grasp = motion::CrossedGrasp();
-  GraspProof proof = FindGraspProof(grasp, 3, kHalfAngle);
+  GraspProof proof = FindGraspProof(grasp, 3, kFrictionAngle);
   for (Vector3d& force : proof.forces) force = (force * 1e6).array().round() / 1e6;
   EXPECT_EQ(CheckGraspProof(grasp, 3, kMu, proof).kind, Kind::kForceClosure);
 }

@@ -17,7 +17,7 @@ namespace soft_proof_test {
 using Eigen::Vector3d;
 using Kind = motion::ProofVerdict::Kind;
 
-constexpr double kHalfAngle = Radians(25);
+constexpr double kFrictionAngle = Radians(25);
 
 grasp::Grasp Soft(grasp::Grasp grasp, double torsion) {
   for (grasp::Contact& contact : grasp) contact.torsion = torsion;
@@ -28,12 +28,13 @@ grasp::Grasp Pair(double torsion) {
   return Soft({{{-1, 0, 0}, {1, 0, 0}}, {{1, 0.3, 0}, {-1, 0, 0}}}, torsion);
 }
 
-Kind Check(const grasp::Grasp& grasp, const GraspProof& proof, double half_angle = kHalfAngle) {
-  return CheckGraspProof(grasp, 3, std::tan(half_angle), proof).kind;
+Kind Check(const grasp::Grasp& grasp, const GraspProof& proof,
+           double friction_angle = kFrictionAngle) {
+  return CheckGraspProof(grasp, 3, std::tan(friction_angle), proof).kind;
 }
 
 TEST(SoftProofTest, APairIsProvedAndTheSameForcesOfHardPointsAreNoProof) {
-  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kHalfAngle);
+  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kFrictionAngle);
   ASSERT_EQ(proof.kind, GraspProof::Kind::kForces);
   EXPECT_EQ(proof.torques.size(), 2U);
   EXPECT_EQ(Check(Pair(0.2), proof), Kind::kForceClosure);
@@ -44,7 +45,7 @@ TEST(SoftProofTest, APairIsProvedAndTheSameForcesOfHardPointsAreNoProof) {
   EXPECT_EQ(Check(Pair(0), without), Kind::kNothing);
   // Point contacts are refuted by a rotation about their line. This does not refute soft-finger
   // contacts.
-  const GraspProof refuted = FindGraspProof(Pair(0), 3, kHalfAngle);
+  const GraspProof refuted = FindGraspProof(Pair(0), 3, kFrictionAngle);
   EXPECT_EQ(Check(Pair(0), refuted), Kind::kNotForceClosure);
   EXPECT_EQ(Check(Pair(0.2), refuted), Kind::kNothing);
 }
@@ -82,7 +83,7 @@ TEST(SoftProofTest, ATwistThatSpinsRefutesUpToTheBorderOfThePolarConeAndNotBeyon
 }
 
 TEST(SoftProofTest, ProofsThatAreChangedProveNothing) {
-  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kHalfAngle);
+  const GraspProof proof = FindGraspProof(Pair(0.2), 3, kFrictionAngle);
   const auto expect_nothing = [&](auto change) {
     GraspProof changed = proof;
     change(changed);
@@ -105,9 +106,9 @@ TEST(SoftProofTest, EveryClearAnswerHasAProofThatHolds) {
     const grasp::Grasp grasp =
         Soft(trial % 2 == 0 ? random.OnBall(count, 3) : random.OnBox(count, 3),
              std::pow(10, random.Uniform(-2, 0)));
-    const double half_angle = Radians(random.Uniform(10, 50));
-    const auto decision = grasp::TestForceClosure(grasp, UnitFrame(3), half_angle).decision;
-    const Kind kind = Check(grasp, FindGraspProof(grasp, 3, half_angle), half_angle);
+    const double friction_angle = Radians(random.Uniform(10, 50));
+    const auto decision = grasp::TestForceClosure(grasp, UnitFrame(3), friction_angle).decision;
+    const Kind kind = Check(grasp, FindGraspProof(grasp, 3, friction_angle), friction_angle);
     if (kind == Kind::kForceClosure) {
       EXPECT_EQ(decision, grasp::Decision::kYes) << trial;
     } else if (kind == Kind::kNotForceClosure) {

@@ -33,7 +33,7 @@ TEST_F(GraspCriteriaTest, ALeastShareAsksForNothingAndAllOfThemForAll) {
   EXPECT_EQ(criteria.Relaxed(1).min_quality, 0.04);
   EXPECT_EQ(criteria.Relaxed(0.5).min_quality, 0.02);
   EXPECT_FALSE(criteria.Relaxed(0).AsksMore());
-  EXPECT_EQ(criteria.Relaxed(0).half_angle, criteria.half_angle);
+  EXPECT_EQ(criteria.Relaxed(0).friction_angle, criteria.friction_angle);
 }
 
 TEST_F(GraspCriteriaTest, AGraspMeetsTheShareOfTheCriteriaThatItsQualityIs) {

@@ -89,7 +89,7 @@ TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
   EXPECT_EQ(memory.counts().force_closure, tests);
   EXPECT_EQ(memory.counts().criteria, criteria);
   // More friction: only grasps that were not force closure are tested.
-  memory.SetHalfAngle(Radians(30));
+  memory.SetFrictionAngle(Radians(30));
   int more = 0;
   for (const ContactSet& pair : Pairs()) {
     EXPECT_EQ(memory.Admits(pair), IsGood(pair, 30, 0));
@@ -97,7 +97,7 @@ TEST_F(GraspMemoryTest, KnowsAtOneFrictionAndQualityWhatItSawAtOthers) {
   }
   EXPECT_EQ(memory.counts().force_closure, tests + more);
   // Back to the initial friction.
-  memory.SetHalfAngle(Radians(20));
+  memory.SetFrictionAngle(Radians(20));
   for (const ContactSet& pair : Pairs()) EXPECT_EQ(memory.Admits(pair), IsGood(pair, 20, 0));
   EXPECT_EQ(memory.counts().force_closure, tests + more);
 }
@@ -149,7 +149,7 @@ TEST_F(GraspMemoryTest, RequiredHalfAngleIsTheAngleOfTheLineBetweenTwoContacts) 
   GraspMemory memory = Memory(20, 0);
   const double lean = 2 / (kSteps + 1.0);
   const ContactSet pair = ContactSet().With(2).With(kSteps + 4);
-  EXPECT_NEAR(memory.RequiredHalfAngle(pair), std::atan(lean), 2e-5);
+  EXPECT_NEAR(memory.RequiredFrictionAngle(pair), std::atan(lean), 2e-5);
   EXPECT_THROW(Memory(90, 0), std::invalid_argument);
 }
 

@@ -12,7 +12,7 @@
 #include "planner/gait/gait_planner.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/request.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/check.h"
 #include "tests/planner/gait/gait_requests.h"
@@ -62,7 +62,7 @@ TEST_P(TurnTest, SegmentsAreContinuousAndFingertipsStayOnTheirContacts) {
   int tips = 0;
   for (const PlanSegment& segment : found.gait->segments) {
     EXPECT_EQ(segment.path.front().pose.matrix(), last->pose.matrix());
-    EXPECT_EQ(segment.path.front().postures, last->postures);
+    EXPECT_EQ(segment.path.front().configurations, last->configurations);
     const bool changes =
         segment.kind == PlanSegment::Kind::kPlace || segment.kind == PlanSegment::Kind::kRelease;
     if (changes) assignment[segment.finger] = kNone;
@@ -74,7 +74,8 @@ TEST_P(TurnTest, SegmentsAreContinuousAndFingertipsStayOnTheirContacts) {
         const grasp::Contact& contact = found.contacts[assignment[finger]];
         const Vector3d ball =
             frame.pose * (request.scale * contact.p - chain.tip.radius * contact.n);
-        EXPECT_LT((kinematics::TipAt(chain, frame.postures[finger]).centre - ball).norm(), 1e-8);
+        EXPECT_LT((kinematics::TipAt(chain, frame.configurations[finger]).centre - ball).norm(),
+                  1e-8);
         ++tips;
       }
     }
@@ -149,9 +150,9 @@ TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
   request.start_grasp = FirstGrasp(rotated);
   // Friction just above the requirement of the grasp.
   const auto needed =
-      grasp::ComputeRequiredHalfAngle(request.start_grasp, request.solid->wrench_frame());
+      grasp::ComputeRequiredFrictionAngle(request.start_grasp, request.solid->wrench_frame());
   ASSERT_TRUE(needed);
-  request.criteria.half_angle = 1.05 * needed->upper;
+  request.criteria.friction_angle = 1.05 * needed->upper;
   request.robustness = RobustnessLevel::kRequired;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
@@ -169,7 +170,7 @@ TEST_P(TurnTest, EqualRequestsGiveEqualGaits) {
     const auto& a = first.gait->segments[i].path;
     const auto& b = second.gait->segments[i].path;
     ASSERT_EQ(a.size(), b.size());
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].postures, b[k].postures);
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].configurations, b[k].configurations);
   }
 }
 
@@ -267,7 +268,7 @@ TEST(FindGaitTest, HoldingFingersSlideAlongTheSurface) {
         for (const Keyframe& frame : segment.path) {
           // The fingertip sphere touches the surface of the cube.
           const Vector3d centre =
-              frame.pose.inverse() * kinematics::TipAt(chain, frame.postures[finger]).centre;
+              frame.pose.inverse() * kinematics::TipAt(chain, frame.configurations[finger]).centre;
           const Vector3d outside = (centre.cwiseAbs().array() - 0.8 * 0.03).max(0.0);
           EXPECT_NEAR(outside.norm(), chain.tip.radius, 1e-8);
         }
@@ -448,7 +449,7 @@ TEST(FindGaitTest, ReportsTheReasonOfAFailure) {
   EXPECT_FALSE(large.gait);
   EXPECT_THAT(large.message, testing::HasSubstr("0 of 90 degrees"));
   GaitRequest slippery = RequestFor("cube", 0.8, 90);
-  slippery.criteria.half_angle = Radians(0.01);
+  slippery.criteria.friction_angle = Radians(0.01);
   const GaitResult none = FindGait(slippery);
   EXPECT_FALSE(none.gait);
   EXPECT_THAT(none.message, testing::HasSubstr("0 of 90 degrees"));

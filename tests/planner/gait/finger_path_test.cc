@@ -29,11 +29,12 @@ struct World {
     frame.pose.linear() =
         Eigen::AngleAxisd(random.Normal(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (const kinematics::Finger& finger : hand.fingers) {
-      kinematics::Posture posture(finger.drives);
+      kinematics::JointConfiguration configuration(finger.drives);
       for (int i = 0; i < finger.drives; ++i) {
-        posture[i] = finger.lower[i] + (finger.upper[i] - finger.lower[i]) * 0.5 * random.Uniform();
+        configuration[i] =
+            finger.lower[i] + (finger.upper[i] - finger.lower[i]) * 0.5 * random.Uniform();
       }
-      frame.postures.push_back(posture);
+      frame.configurations.push_back(configuration);
     }
     return frame;
   }
@@ -41,8 +42,9 @@ struct World {
   [[nodiscard]] double NearestToObject(const Keyframe& frame) const {
     double nearest = 1;
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-      nearest = std::min(nearest, scene.DistanceFromObject(
-                                      scene.Place(finger, frame.postures[finger]), frame.pose, 1));
+      nearest =
+          std::min(nearest, scene.DistanceFromObject(
+                                scene.Place(finger, frame.configurations[finger]), frame.pose, 1));
     }
     return nearest;
   }

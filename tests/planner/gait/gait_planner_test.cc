@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "planner/base/error.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/check.h"
 #include "planner/planning/in_hand_task.h"
@@ -37,7 +37,7 @@ class GaitPlannerTest : public testing::Test {
   PlanRequest Turning(double degrees) const {
     PlanRequest request;
     request.object = file_.object.get();
-    request.criteria.half_angle = std::atan(0.8);
+    request.criteria.friction_angle = std::atan(0.8);
     request.seed = 2;
     AskInHand(TaskOf(degrees), request);
     return request;
@@ -59,8 +59,8 @@ TEST_F(GaitPlannerTest, PlansPassTheCheckerWithTheReportedMargin) {
   plan::FingerGrasp grasp = found.plan->initial;
   double required = 0;
   const auto update_required = [&] {
-    required = std::max(required, grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp),
-                                                                  file_.object->wrench_frame())
+    required = std::max(required, grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(grasp),
+                                                                      file_.object->wrench_frame())
                                       ->upper);
   };
   update_required();
@@ -98,7 +98,7 @@ TEST_F(GaitPlannerTest, GivenGraspsAreChecked) {
               ThrowsMessage<InputError>(HasSubstr("planner gait requires 3 to 4 contacts, found " +
                                                   std::to_string(grasp.size()))));
   request.start = Given(plan::ContactsOf(turned.plan->initial));
-  request.criteria.half_angle = Radians(1);
+  request.criteria.friction_angle = Radians(1);
   EXPECT_THAT([&] { (void)Solve(request); },
               ThrowsMessage<InputError>(HasSubstr("given.json: /contacts: not force closure")));
 }

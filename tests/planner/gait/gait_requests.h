@@ -36,7 +36,7 @@ inline GaitRequest RequestFor(const std::string& model, double scale, double deg
   request.hand = &Ring();
   request.solid = &Model(model);
   request.scale = scale;
-  request.criteria.half_angle = std::atan(0.8);
+  request.criteria.friction_angle = std::atan(0.8);
   request.turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)};
   request.seed = 2;
   return request;

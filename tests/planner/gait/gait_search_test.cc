@@ -18,19 +18,19 @@ void ExpectContinuous(const Gait& gait) {
   const Keyframe* last = &gait.start;
   for (const PlanSegment& segment : gait.segments) {
     EXPECT_EQ(segment.path.front().pose.matrix(), last->pose.matrix());
-    EXPECT_EQ(segment.path.front().postures, last->postures);
+    EXPECT_EQ(segment.path.front().configurations, last->configurations);
     last = &segment.path.back();
   }
 }
 
 void ExpectEqual(const Gait& a, const Gait& b) {
   EXPECT_EQ(a.initial, b.initial);
-  EXPECT_EQ(a.start.postures, b.start.postures);
+  EXPECT_EQ(a.start.configurations, b.start.configurations);
   ASSERT_EQ(a.segments.size(), b.segments.size());
   for (std::size_t i = 0; i < a.segments.size(); ++i) {
     ASSERT_EQ(a.segments[i].path.size(), b.segments[i].path.size());
     for (std::size_t k = 0; k < a.segments[i].path.size(); ++k) {
-      EXPECT_EQ(a.segments[i].path[k].postures, b.segments[i].path[k].postures);
+      EXPECT_EQ(a.segments[i].path[k].configurations, b.segments[i].path[k].configurations);
     }
   }
 }
@@ -67,7 +67,7 @@ TEST_F(GaitSearchTest, WithoutATaskTheGaitIsOneStance) {
 /// Negative control: almost without friction no stance is admissible.
 TEST_F(GaitSearchTest, WithoutFrictionNothingIsExpanded) {
   GaitRequest slippery = RequestFor("cube", 0.8, 90);
-  slippery.criteria.half_angle = Radians(0.01);
+  slippery.criteria.friction_angle = Radians(0.01);
   GaitWorld world(slippery);
   WorldSearch none(world, Rotation(0));
   EXPECT_FALSE(none.search.Run(kBudget, {}));
@@ -118,7 +118,7 @@ TEST_F(GaitSearchTest, AGivenStanceIsTheRoot) {
   const std::optional<Gait> gait = first.search.Run(kBudget, {});
   ASSERT_TRUE(gait);
   WorldSearch again(world_, Rotation(90));
-  again.search.StartFrom({gait->initial, gait->start.postures});
+  again.search.StartFrom({gait->initial, gait->start.configurations});
   const std::optional<Gait> from_stance = again.search.Run(kBudget, {});
   ASSERT_TRUE(from_stance);
   EXPECT_EQ(from_stance->initial, gait->initial);

@@ -6,7 +6,7 @@ namespace regrasp::gait {
 namespace gait_test {
 
 Keyframe At(double drive) {
-  return {Eigen::Isometry3d::Identity(), {kinematics::Posture::Constant(1, drive)}};
+  return {Eigen::Isometry3d::Identity(), {kinematics::JointConfiguration::Constant(1, drive)}};
 }
 
 /// Finger 1 is placed at contact 7, finger 0 leaves contact 4, finger 1 slides to 9.
@@ -26,8 +26,8 @@ Gait Example() {
 
 TEST(GaitTest, TheEndFollowsFromTheSegments) {
   EXPECT_EQ(AssignmentAtEnd(Example()), (ContactAssignment{kNone, 9}));
-  EXPECT_EQ(EndOf(Example()).postures[0][0], 6);
-  EXPECT_EQ(EndOf(Gait{{4}, At(8), {}}).postures[0][0], 8);
+  EXPECT_EQ(EndOf(Example()).configurations[0][0], 6);
+  EXPECT_EQ(EndOf(Gait{{4}, At(8), {}}).configurations[0][0], 8);
 }
 
 TEST(GaitTest, TheReversedGaitLeadsBack) {
@@ -35,7 +35,7 @@ TEST(GaitTest, TheReversedGaitLeadsBack) {
   Gait back{AssignmentAtEnd(gait), EndOf(gait), {}};
   AppendReversed(gait.segments, back);
   EXPECT_EQ(AssignmentAtEnd(back), gait.initial);
-  EXPECT_EQ(EndOf(back).postures, gait.start.postures);
+  EXPECT_EQ(EndOf(back).configurations, gait.start.configurations);
   EXPECT_EQ(back.segments.front().slid[0].to, 7);
   EXPECT_EQ(back.segments.front().waypoints.front()[0].p.x(), 3);
   EXPECT_EQ(back.segments.front().waypoint_frames, (std::vector{0, 2, 3}));
@@ -43,7 +43,7 @@ TEST(GaitTest, TheReversedGaitLeadsBack) {
   EXPECT_EQ(back.segments[2].kind, PlanSegment::Kind::kRelease);
   const Keyframe* last = &back.start;
   for (const PlanSegment& segment : back.segments) {
-    EXPECT_EQ(segment.path.front().postures, last->postures);
+    EXPECT_EQ(segment.path.front().configurations, last->configurations);
     last = &segment.path.back();
   }
 }

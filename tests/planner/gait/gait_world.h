@@ -68,15 +68,15 @@ struct WorldSearch {
               std::uint64_t seed = 1)
       : grid(track, world.scene.hand().up, PoseGrid::End::kOrientation),
         random(seed, RandomUse::kGaits),
-        idle_postures(FindIdlePostures(world.setup, track, random).value()),
-        checker(world.setup, grid, idle_postures),
+        idle_configurations(FindIdleConfigurations(world.setup, track, random).value()),
+        checker(world.setup, grid, idle_configurations),
         search(world.setup, grid, checker, ends, world.memory, random) {}
   WorldSearch(const WorldSearch&) = delete;  // members refer to each other
   WorldSearch& operator=(const WorldSearch&) = delete;
 
   PoseGrid grid;
   RandomStream random;
-  IdlePostures idle_postures;
+  IdleConfigurations idle_configurations;
   ObjectMotionChecker checker;
   GaitSearch search;
 };

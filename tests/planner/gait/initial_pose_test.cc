@@ -105,16 +105,17 @@ TEST(FindInitialPosesTest, AGoalGraspThatNoFingersReachHasNoPose) {
 }
 
 /// Law: idle postures are clear of the hand and of the object along the track.
-TEST(FindIdlePosturesTest, PosturesAreClearOfHandAndObject) {
+TEST(FindIdleConfigurationsTest, ConfigurationsAreClearOfHandAndObject) {
   GaitWorld world(RequestFor("cube", 0.8, 90));
   const PoseTrack track = world.task.From(world.BestPose());
   RandomStream random(1, RandomUse::kHomes);
-  const std::optional<IdlePostures> postures = FindIdlePostures(world.setup, track, random);
-  ASSERT_TRUE(postures);
+  const std::optional<IdleConfigurations> configurations =
+      FindIdleConfigurations(world.setup, track, random);
+  ASSERT_TRUE(configurations);
   for (FingerIndex finger{0}; finger < world.scene.finger_count(); ++finger) {
-    ASSERT_FALSE((*postures)[finger].empty());
-    for (const Posture& posture : (*postures)[finger]) {
-      const PlacedFinger placed = world.scene.Place(finger, posture);
+    ASSERT_FALSE((*configurations)[finger].empty());
+    for (const JointConfiguration& configuration : (*configurations)[finger]) {
+      const PlacedFinger placed = world.scene.Place(finger, configuration);
       EXPECT_TRUE(world.scene.KeepsOffHand(placed));
       EXPECT_TRUE(world.scene.KeepsOffObject(placed, track.PoseAt(0), TipContact::kFree));
       EXPECT_TRUE(
@@ -125,7 +126,8 @@ TEST(FindIdlePosturesTest, PosturesAreClearOfHandAndObject) {
   int blocked = 0;
   for (int i = 0; i < 200; ++i) {
     const FingerIndex finger{i % world.scene.finger_count()};
-    const PlacedFinger placed = world.scene.Place(finger, world.scene.DrawPosture(finger, random));
+    const PlacedFinger placed =
+        world.scene.Place(finger, world.scene.DrawConfiguration(finger, random));
     blocked +=
         static_cast<int>(!world.scene.KeepsOffHand(placed) ||
                          !world.scene.KeepsOffObject(placed, track.PoseAt(0), TipContact::kFree));

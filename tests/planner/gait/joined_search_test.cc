@@ -13,9 +13,9 @@ namespace joined_search_test {
 
 constexpr std::int64_t kBudget = 400;
 
-IdlePostures IdlePosturesFor(const GaitWorld& world, const PoseTrack& track) {
+IdleConfigurations IdleConfigurationsFor(const GaitWorld& world, const PoseTrack& track) {
   RandomStream random(1, RandomUse::kHomes);
-  return FindIdlePostures(world.setup, track, random).value();
+  return FindIdleConfigurations(world.setup, track, random).value();
 }
 
 /// The ring hand holds a cube of 48 mm, which stays where it is.
@@ -40,8 +40,8 @@ class BidirectionalSearchTest : public testing::Test {
     const PoseTrack track = world.task.From(pose_);
     const PoseGrid grid(track, world.scene.hand().up, PoseGrid::End::kPose);
     RandomStream random(1, RandomUse::kGaits);
-    BidirectionalSearch search(world.setup, grid, IdlePosturesFor(world, track), ends, world.memory,
-                               random, {});
+    BidirectionalSearch search(world.setup, grid, IdleConfigurationsFor(world, track), ends,
+                               world.memory, random, {});
     if (goal_is_held != nullptr) *goal_is_held = search.GoalIsHeld();
     std::optional<Gait> gait = search.Run(budget, {});
     expanded_ = search.counts().expanded;
@@ -120,8 +120,8 @@ class TurnSearchTest : public testing::Test {
 
   std::optional<Gait> Search(GaitWorld& world, const PoseTrack& track, std::uint64_t seed) {
     RandomStream random(seed, RandomUse::kGaits);
-    TurnSearch search(world.setup, track, IdlePosturesFor(world, track),
-                      IdlePosturesFor(world, track.Backwards()), world.memory, random);
+    TurnSearch search(world.setup, track, IdleConfigurationsFor(world, track),
+                      IdleConfigurationsFor(world, track.Backwards()), world.memory, random);
     std::optional<Gait> gait = search.Run(kBudget, {});
     EXPECT_TRUE(search.GoalIsHeld());
     EXPECT_LE(search.counts().farthest, track.steps());
@@ -161,7 +161,7 @@ TEST_F(TurnSearchTest, TheObjectRotatesByTheRequiredAngleFromAnyStart) {
 /// Negative control: almost without friction there is no stance to begin with.
 TEST_F(TurnSearchTest, WithoutFrictionTheSearchIsExhausted) {
   GaitRequest slippery = RequestFor("cube", 0.8, kDegrees);
-  slippery.criteria.half_angle = Radians(0.01);
+  slippery.criteria.friction_angle = Radians(0.01);
   GaitWorld world(slippery);
   EXPECT_FALSE(Search(world, track_, 1));
   EXPECT_TRUE(is_exhausted_);

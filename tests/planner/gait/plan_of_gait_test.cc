@@ -20,7 +20,7 @@ class MergeMovesTest : public testing::Test {
     request_.hand = &hand_;
     request_.solid = &cube_;
     request_.scale = 0.8;
-    request_.criteria.half_angle = std::atan(0.8);
+    request_.criteria.friction_angle = std::atan(0.8);
     request_.turn = {Eigen::Vector3d::UnitZ(), Radians(30)};
     request_.robustness = RobustnessLevel::kNone;
     found_ = FindGait(request_);
@@ -57,7 +57,7 @@ TEST_F(MergeMovesTest, DetoursAreRemovedUnlessContactsRoll) {
   ASSERT_EQ(fewer.segments.size(), 1u);
   EXPECT_LE(fewer.segments[0].path.size(), to.path.size());
   EXPECT_EQ(EndOf(fewer).pose.matrix(), EndOf(gait).pose.matrix());
-  EXPECT_EQ(EndOf(fewer).postures, EndOf(gait).postures);
+  EXPECT_EQ(EndOf(fewer).configurations, EndOf(gait).configurations);
   // If contacts roll, each path to a pose ends at other contacts.
   const HandSetup rolling{scene_, inverse_, points_, 0.8, &rolled_on_};
   const Gait rolled = MergeMoves(rolling, gait);

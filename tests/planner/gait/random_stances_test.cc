@@ -16,7 +16,7 @@ constexpr double kScale = 0.8333;
 constexpr int kTries = 20'000;
 
 /// Convert joint angles; every joint of this hand is independent.
-kinematics::Posture PostureOf(const std::vector<double>& joints) {
+kinematics::JointConfiguration ConfigurationOf(const std::vector<double>& joints) {
   return Eigen::Map<const Eigen::VectorXd>(joints.data(), std::ssize(joints));
 }
 
@@ -36,7 +36,7 @@ TEST(RandomStancesTest, FingertipsTouchTheContactsOfAnAdmissibleGraspAndNothingE
     EXPECT_TRUE(scene.KeepsOffPalm(stance->state.pose));
     std::vector<PlacedFinger> placed;
     for (FingerIndex finger{0}; finger < scene.finger_count(); ++finger) {
-      placed.push_back(scene.Place(finger, PostureOf(stance->state.joints[finger])));
+      placed.push_back(scene.Place(finger, ConfigurationOf(stance->state.joints[finger])));
       const plan::FingerContact* holding = plan::FindFinger(stance->grasp, finger);
       EXPECT_TRUE(scene.KeepsOffHand(placed.back()));
       EXPECT_TRUE(scene.KeepsOffObject(placed.back(), stance->state.pose,
@@ -46,7 +46,7 @@ TEST(RandomStancesTest, FingertipsTouchTheContactsOfAnAdmissibleGraspAndNothingE
       }
       if (!holding) continue;
       const kinematics::Finger& chain = scene.finger(finger);
-      const auto tip = kinematics::TipAt(chain, PostureOf(stance->state.joints[finger]));
+      const auto tip = kinematics::TipAt(chain, ConfigurationOf(stance->state.joints[finger]));
       const Eigen::Vector3d centre = stance->state.pose.inverse() * tip.centre;
       const Eigen::Vector3d contact = centre + chain.tip.radius * holding->contact.n;
       EXPECT_LT((contact - kScale * holding->contact.p).norm(), 1e-8);
@@ -102,7 +102,7 @@ TEST(RandomStancesTest, TooLargeOrTooSlipperyObjectsHaveNoStance) {
   const GaitRequest large = RequestFor("cube", 10, 0);
   EXPECT_FALSE(RandomStances(large, {}).Draw(random, 2000));
   GaitRequest slippery = RequestFor("cube", kScale, 0);
-  slippery.criteria.half_angle = 0.01;
+  slippery.criteria.friction_angle = 0.01;
   EXPECT_FALSE(RandomStances(slippery, {}).Draw(random, 2000));
 }
 

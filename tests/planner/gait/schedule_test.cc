@@ -50,7 +50,7 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
         if (!rolled[f]) continue;
         const kinematics::Finger& chain = request.hand->fingers[f];
         const auto ball = [&](const Keyframe& at) {
-          return FingertipOrientation(chain, at.postures[f], at.pose);
+          return FingertipOrientation(chain, at.configurations[f], at.pose);
         };
         rolled[f] = Rolled(*rolled[f], ball(segment.path[i]) * ball(segment.path[i - 1]).inverse(),
                            chain.tip.radius, surface);
@@ -58,7 +58,7 @@ double ForceMarginWhereItRolls(const Gait& gait, const GaitRequest& request,
       }
       const Vector3d weight = -(segment.path[i].pose.linear().transpose() * request.hand->up);
       least = std::min(least,
-                       grasp::ComputeGraspForces(grasp, frame, request.criteria.half_angle,
+                       grasp::ComputeGraspForces(grasp, frame, request.criteria.friction_angle,
                                                  {weight, Vector3d::Zero()}, kGraspForceOverWeight)
                            .margin);
     }
@@ -90,7 +90,7 @@ TEST(ScheduleTest, RobustGraspsWithstandTheWeightAtRolledContacts) {
 
 TEST(ScheduleTest, ReportsThatRequiredRobustnessMayPreventAPlan) {
   GaitRequest request = RequestFor("cube", 0.8, 90);
-  request.criteria.half_angle = std::atan(0.15);
+  request.criteria.friction_angle = std::atan(0.15);
   request.robustness = RobustnessLevel::kRequired;
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
@@ -216,7 +216,7 @@ TEST(ScheduleTest, SelectsTheExecutableGaitWithTheLargestToleranceMarginIfReques
     EXPECT_TRUE(found.gait) << found.message;
     EXPECT_TRUE(ExecutesInSimulation(found));
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
-    EXPECT_EQ(found.execution->spare, margin_of(plan));
+    EXPECT_EQ(found.execution->tolerance_margin, margin_of(plan));
     return plan;
   };
   const plan::Plan first = find();
@@ -418,7 +418,7 @@ TEST(ScheduleTest, WithADeadlineTheFirstExecutingGaitEndsAllSearches) {
     return std::optional(planning::ExecutionResult{.is_held = true,
                                                    .steps = static_cast<int>(plan.steps.size()),
                                                    .is_whole = is_first,
-                                                   .spare = 0.5,
+                                                   .tolerance_margin = 0.5,
                                                    .is_cut_short = !is_first});
   };
   const GaitResult found = FindGait(request);

@@ -22,7 +22,7 @@ GaitRequest RequestAtRest(const kinematics::HandModel& hand, const object::Polyh
   request.hand = &hand;
   request.solid = &solid;
   request.scale = scale;
-  request.criteria.half_angle = std::atan(0.8);
+  request.criteria.friction_angle = std::atan(0.8);
   request.robustness = RobustnessLevel::kNone;
   request.seed = 2;
   return request;
@@ -59,17 +59,17 @@ class StanceTreeTest : public testing::Test {
     EXPECT_TRUE(tree.PlanPathFromParent(tree[first]));
     return first;
   }
-  Posture FreePosture() { return FreePostureOf(free_, first_); }
+  JointConfiguration FreeConfiguration() { return FreeConfigurationOf(free_, first_); }
   /// Draw a collision-free idle posture.
-  Posture FreePostureOf(FingerIndex finger, Stance stance) {
+  JointConfiguration FreeConfigurationOf(FingerIndex finger, Stance stance) {
     do {
-      stance.idle[finger] = setup_.scene.DrawPosture(finger, random_);
+      stance.idle[finger] = setup_.scene.DrawConfiguration(finger, random_);
     } while (!setup_.scene.KeepsOffHand(setup_.scene.Place(finger, stance.idle[finger])) ||
              !checker_.IsPassable(stance, grid_.start()));
     return stance.idle[finger];
   }
-  Vector3d TipOf(const Posture& posture) const {
-    return kinematics::TipAt(hand_.fingers[free_], posture).centre;
+  Vector3d TipOf(const JointConfiguration& configuration) const {
+    return kinematics::TipAt(hand_.fingers[free_], configuration).centre;
   }
 
   const kinematics::HandModel hand_;
@@ -84,26 +84,26 @@ class StanceTreeTest : public testing::Test {
   const HandSetup setup_{scene_, inverse_, points_, request_.scale};
   criteria::GraspMemory memory_{solid_, request_.criteria, FingersOf(request_),
                                 criteria::QualityTest::kQuick};
-  const IdlePostures no_postures_ = IdlePostures(hand_.fingers.size());
+  const IdleConfigurations no_configurations_ = IdleConfigurations(hand_.fingers.size());
   const PoseGrid grid_{{found_.gait->start.pose, Vector3d::Zero(), {}, Vector3d::Zero(), 0},
                        hand_.up,
                        PoseGrid::End::kPose};
-  ObjectMotionChecker checker_{setup_, grid_, no_postures_};
+  ObjectMotionChecker checker_{setup_, grid_, no_configurations_};
   SlideRoutes routes_{memory_};
   RandomStream random_{1, RandomUse::kGaits};
-  const Stance first_{found_.gait->initial, found_.gait->start.postures};
+  const Stance first_{found_.gait->initial, found_.gait->start.configurations};
   FingerIndex free_{0};
 };
 
 TEST_F(StanceTreeTest, AnIdleFingerMayStartElsewhere) {
   StanceTree tree = Tree(true);
   const int first = AddFirst(tree);
-  const Posture elsewhere = FreePosture();
-  const int other = tree.WithIdlePosture(first, free_, elsewhere);
+  const JointConfiguration elsewhere = FreeConfiguration();
+  const int other = tree.WithIdleConfiguration(first, free_, elsewhere);
   ASSERT_GE(other, 0);
   EXPECT_EQ(tree[other].stance.assignment, first_.assignment);
-  EXPECT_EQ(tree[other].at.postures[free_], elsewhere);
-  EXPECT_EQ(tree[first].at.postures[free_], first_.idle[free_]);
+  EXPECT_EQ(tree[other].at.configurations[free_], elsewhere);
+  EXPECT_EQ(tree[first].at.configurations[free_], first_.idle[free_]);
 }
 
 TEST_F(StanceTreeTest, IdlePosturesMustBeClearAndOnlyIdleFingersOfAGivenStartMayChange) {
@@ -111,16 +111,16 @@ TEST_F(StanceTreeTest, IdlePosturesMustBeClearAndOnlyIdleFingersOfAGivenStartMay
   const int first = AddFirst(tree);
   int touching = 0;
   for (int point = 0; point < std::ssize(points_); ++point) {
-    const Posture* there = checker_.reach().Find(free_, point, grid_.start());
+    const JointConfiguration* there = checker_.reach().Find(free_, point, grid_.start());
     if (there == nullptr) continue;
     ++touching;
-    EXPECT_LT(tree.WithIdlePosture(first, free_, *there), 0);
+    EXPECT_LT(tree.WithIdleConfiguration(first, free_, *there), 0);
   }
   EXPECT_GT(touching, 0);
   const FingerIndex holding_finger{(free_ + 1) % 4};
-  EXPECT_LT(tree.WithIdlePosture(first, holding_finger, FreePosture()), 0);
+  EXPECT_LT(tree.WithIdleConfiguration(first, holding_finger, FreeConfiguration()), 0);
   StanceTree others = Tree(false);
-  EXPECT_LT(others.WithIdlePosture(AddFirst(others), free_, FreePosture()), 0);
+  EXPECT_LT(others.WithIdleConfiguration(AddFirst(others), free_, FreeConfiguration()), 0);
 }
 
 /// The finger idles a few millimetres above its future contact.
@@ -141,12 +141,12 @@ TEST_F(StanceTreeTest, APlacedFingerMayIdleAboveItsContactBefore) {
     EXPECT_EQ(begin.stance.assignment, first_.assignment);
     const Vector3d ball =
         TargetAt(hand_.fingers[free_], points_[point], grid_.PoseAt(grid_.start())).centre;
-    const double above = (TipOf(begin.at.postures[free_]) - ball).norm();
+    const double above = (TipOf(begin.at.configurations[free_]) - ball).norm();
     EXPECT_GT(above, 0.005);
     EXPECT_LT(above, 0.021);
     const auto gait = tree.PathTo(after, grid_.start());
     ASSERT_TRUE(gait);
-    EXPECT_EQ(gait->start.postures, begin.at.postures);
+    EXPECT_EQ(gait->start.configurations, begin.at.configurations);
     ASSERT_EQ(gait->segments.size(), 1u);
     EXPECT_EQ(gait->segments[0].contact, point);
   }
@@ -173,13 +173,14 @@ TEST_F(FiveFingersTest, ACopiedNodeKeepsTheIdlePosturesOfItsParent) {
   ContactAssignment released = first_.assignment;
   released[holding_finger_] = kNone;
   StanceNode after = tree.After(first, released, grid_.start());
-  after.stance.idle[holding_finger_] = FreePostureOf(holding_finger_, after.stance);
+  after.stance.idle[holding_finger_] = FreeConfigurationOf(holding_finger_, after.stance);
   const int second = tree.Add(after);
   ASSERT_TRUE(tree.PlanPathFromParent(tree[second]));
-  tree[second].stance.idle[other_free_] = FreePostureOf(other_free_, tree[second].stance);
+  tree[second].stance.idle[other_free_] = FreeConfigurationOf(other_free_, tree[second].stance);
   ASSERT_NE(tree[second].stance.idle[other_free_], first_.idle[other_free_]);
 
-  const int anew = tree.WithIdlePosture(second, free_, FreePostureOf(free_, tree[second].stance));
+  const int anew =
+      tree.WithIdleConfiguration(second, free_, FreeConfigurationOf(free_, tree[second].stance));
   ASSERT_GE(anew, 0);
   const StanceNode& before = tree[tree[anew].parent];
   EXPECT_EQ(before.stance.idle[other_free_], first_.idle[other_free_]);
@@ -197,7 +198,7 @@ TEST_F(FiveFingersTest, ANodeAfterIdlingAboveKeepsTheIdlePosturesOfItsParent) {
     to[free_] = point;
     if (!checker_.IsPassable({to}, grid_.start())) continue;
     StanceNode placed = tree.After(first, to, grid_.start());
-    placed.stance.idle[other_free_] = FreePostureOf(other_free_, placed.stance);
+    placed.stance.idle[other_free_] = FreeConfigurationOf(other_free_, placed.stance);
     ASSERT_NE(placed.stance.idle[other_free_], first_.idle[other_free_]);
     const int after = tree.AfterIdlingAbove(tree.Add(placed));
     if (after < 0) continue;
@@ -230,7 +231,7 @@ TEST_F(LiftPathTest, LiftsOffTheSurface) {
     const FingerIndex finger{i % scene_.finger_count()};
     Keyframe frame{DrawPose(), {}};
     for (const kinematics::InverseKinematics& inverse : inverse_) {
-      frame.postures.push_back(inverse.middle());
+      frame.configurations.push_back(inverse.middle());
     }
     const Surroundings around = AllExcept(scene_, finger, frame);
     for (const SurfacePoint& point : points_) {
@@ -245,8 +246,8 @@ TEST_F(LiftPathTest, LiftsOffTheSurface) {
       const auto lift_path =
           FindLiftPath(scene_, inverse_[finger], finger, target, *touching, around);
       if (!lift_path) continue;
-      const auto tip = [&](const Posture& posture) {
-        return kinematics::TipAt(hand_.fingers[finger], posture).centre;
+      const auto tip = [&](const JointConfiguration& configuration) {
+        return kinematics::TipAt(hand_.fingers[finger], configuration).centre;
       };
       EXPECT_EQ(lift_path->front(), *touching);
       const Vector3d off = tip(lift_path->back()) - target.centre;
@@ -254,12 +255,12 @@ TEST_F(LiftPathTest, LiftsOffTheSurface) {
       const double waypoints = off.normalized().dot(-target.towards);
       EXPECT_GT(waypoints, 0.5);
       ++(waypoints > 0.999 ? along_normal : tilted);
-      for (const Posture& posture : *lift_path) {
-        const PlacedFinger placed = scene_.Place(finger, posture);
+      for (const JointConfiguration& configuration : *lift_path) {
+        const PlacedFinger placed = scene_.Place(finger, configuration);
         EXPECT_TRUE(scene_.KeepsOffHand(placed, 0.0));
         const bool is_off = scene_.KeepsOffObject(placed, around.pose, TipContact::kFree, 0.0);
         near += static_cast<int>(!is_off);
-        EXPECT_TRUE(is_off || (tip(posture) - target.centre).norm() < 0.012);
+        EXPECT_TRUE(is_off || (tip(configuration) - target.centre).norm() < 0.012);
       }
     }
   }

@@ -14,7 +14,7 @@
 #include "planner/base/number.h"
 #include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
@@ -26,7 +26,7 @@ constexpr double kGap = 0.01;
 constexpr int kFewFacets = 30'000;
 
 /// Compute the support of the wrench set along a unit twist, independently of the library.
-double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
+double Support(const Grasp& grasp, const object::WrenchFrame& frame, double friction_angle,
                const Eigen::Matrix<double, 6, 1>& y) {
   double best = 0;
   for (const Contact& contact : grasp) {
@@ -35,24 +35,24 @@ double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half
     const double normal = contact.n.dot(u);
     const double spin = contact.torsion / frame.radius * contact.n.dot(y.tail<3>());
     const double sliding = (u - normal * contact.n).norm();
-    best = std::max(best, normal + std::tan(half_angle) * std::hypot(sliding, spin));
+    best = std::max(best, normal + std::tan(friction_angle) * std::hypot(sliding, spin));
   }
   return best;
 }
 
 /// Return the least support over random twists, each improved by random descent steps.
-double LeastSupport(const Grasp& grasp, double half_angle, RandomGrasps& random) {
+double LeastSupport(const Grasp& grasp, double friction_angle, RandomGrasps& random) {
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 100; ++start) {
     Eigen::Matrix<double, 6, 1> y;
     y << random.Uniform(0, 1) * random.Direction(3), random.Uniform(0, 1) * random.Direction(3);
     y.normalize();
-    double here = Support(grasp, UnitFrame(3), half_angle, y);
+    double here = Support(grasp, UnitFrame(3), friction_angle, y);
     for (double step = 0.5; step > 1e-3; step *= 0.97) {
       Eigen::Matrix<double, 6, 1> z;
       z << random.Direction(3), random.Direction(3);
       z = (y + step * z).normalized();
-      const double there = Support(grasp, UnitFrame(3), half_angle, z);
+      const double there = Support(grasp, UnitFrame(3), friction_angle, z);
       if (there < here) std::tie(y, here) = std::pair(z, there);
     }
     least = std::min(least, here);
@@ -62,8 +62,8 @@ double LeastSupport(const Grasp& grasp, double half_angle, RandomGrasps& random)
 
 /// Compute the quality by Qhull's hull of pyramids with `sides` sides.
 /// @param outside  true: the pyramids contain the cones; false: they are inscribed.
-double QualityOfPyramids(const Grasp& grasp, double half_angle, int sides, bool outside) {
-  const double mu = std::tan(half_angle) / (outside ? std::cos(std::numbers::pi / sides) : 1);
+double QualityOfPyramids(const Grasp& grasp, double friction_angle, int sides, bool outside) {
+  const double mu = std::tan(friction_angle) / (outside ? std::cos(std::numbers::pi / sides) : 1);
   Eigen::MatrixXd wrenches(6, 1 + sides * static_cast<int>(grasp.size()));
   wrenches.col(0).setZero();
   int column = 1;
@@ -109,9 +109,9 @@ std::vector<std::pair<std::string, Grasp>> SymmetricGrasps() {
 }
 
 /// Compute bounds by the hull itself, because ComputeQuality may use another method.
-QualityBounds Bound(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
+QualityBounds Bound(const Grasp& grasp, const object::WrenchFrame& frame, double friction_angle,
                     double gap = kGap) {
-  const auto bounds = BoundQualityByHull(grasp, frame, half_angle, gap);
+  const auto bounds = BoundQualityByHull(grasp, frame, friction_angle, gap);
   EXPECT_TRUE(bounds) << "rounding broke the hull";
   return bounds.value_or(QualityBounds{});
 }
@@ -142,11 +142,11 @@ TEST(BoundQualityTest, BoundsOverlapThoseOfQhullWithinOnePercent) {
     const Grasp grasp =
         trial % 2 == 0 ? random.OnBall(count, dimension) : random.OnBox(count, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(5, 60));
-    if (!IsForceClosure(grasp, frame, half_angle)) continue;
-    const QualityBounds bounds = Bound(grasp, frame, half_angle);
+    const double friction_angle = Radians(random.Uniform(5, 60));
+    if (!IsForceClosure(grasp, frame, friction_angle)) continue;
+    const QualityBounds bounds = Bound(grasp, frame, friction_angle);
     EXPECT_LE(bounds.upper - bounds.lower, std::max(kGap * bounds.upper, kQualityGap)) << trial;
-    ExpectOverlap(bounds, ComputeQuality(grasp, frame, half_angle, 0.1), std::to_string(trial));
+    ExpectOverlap(bounds, ComputeQuality(grasp, frame, friction_angle, 0.1), std::to_string(trial));
     if (count == 4) {
       EXPECT_LT(bounds.facets, kFewFacets) << trial;
     }
@@ -160,15 +160,15 @@ TEST(BoundQualityTest, LiesBetweenDensePyramidsInsideAndOutsideTheCones) {
   int checked = 0;
   for (int trial = 0; trial < 60 && checked < 6; ++trial) {
     const Grasp grasp = trial % 2 == 0 ? random.OnBall(4, 3) : random.OnBox(4, 3);
-    const double half_angle = Radians(random.Uniform(15, 35));
-    if (!IsForceClosure(grasp, UnitFrame(3), half_angle)) continue;
-    const QualityBounds bounds = Bound(grasp, UnitFrame(3), half_angle);
+    const double friction_angle = Radians(random.Uniform(15, 35));
+    if (!IsForceClosure(grasp, UnitFrame(3), friction_angle)) continue;
+    const QualityBounds bounds = Bound(grasp, UnitFrame(3), friction_angle);
     if (bounds.upper < 0.01) continue;  // the pyramids are too inaccurate there
     ++checked;
-    EXPECT_GE(bounds.upper, QualityOfPyramids(grasp, half_angle, 16, false) - 1e-6);
-    EXPECT_LE(bounds.lower, QualityOfPyramids(grasp, half_angle, 16, true) + 1e-6);
+    EXPECT_GE(bounds.upper, QualityOfPyramids(grasp, friction_angle, 16, false) - 1e-6);
+    EXPECT_LE(bounds.lower, QualityOfPyramids(grasp, friction_angle, 16, true) + 1e-6);
     // Pyramids with four sides are so inaccurate that the comparison can fail.
-    EXPECT_GT(bounds.lower, QualityOfPyramids(grasp, half_angle, 4, false));
+    EXPECT_GT(bounds.lower, QualityOfPyramids(grasp, friction_angle, 4, false));
   }
   EXPECT_EQ(checked, 6);
 }
@@ -181,10 +181,10 @@ TEST(BoundQualityTest, NoTwistHasALowerSupport) {
     if (trial % 3 == 0) {
       for (Contact& contact : grasp) contact.torsion = 0.3;
     }
-    const double half_angle = Radians(random.Uniform(15, 45));
-    if (!IsForceClosure(grasp, UnitFrame(3), half_angle)) continue;
-    const QualityBounds bounds = Bound(grasp, UnitFrame(3), half_angle);
-    const double least = LeastSupport(grasp, half_angle, random);
+    const double friction_angle = Radians(random.Uniform(15, 45));
+    if (!IsForceClosure(grasp, UnitFrame(3), friction_angle)) continue;
+    const QualityBounds bounds = Bound(grasp, UnitFrame(3), friction_angle);
+    const double least = LeastSupport(grasp, friction_angle, random);
     EXPECT_LE(bounds.lower, least) << trial;
     EXPECT_LE(bounds.upper, least * 1.05 + 1e-3) << trial << ": the search found a better twist";
     ++checked;
@@ -210,10 +210,10 @@ TEST(BoundQualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
   int checked = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const Grasp grasp = trial % 2 == 0 ? random.OnBall(4, 3) : random.OnBox(4, 3);
-    const double half_angle = Radians(random.Uniform(15, 30));
-    if (!IsForceClosure(grasp, UnitFrame(3), half_angle)) continue;
+    const double friction_angle = Radians(random.Uniform(15, 30));
+    if (!IsForceClosure(grasp, UnitFrame(3), friction_angle)) continue;
     ++checked;
-    const QualityBounds bounds = Bound(grasp, UnitFrame(3), half_angle);
+    const QualityBounds bounds = Bound(grasp, UnitFrame(3), friction_angle);
     const double unit = std::pow(10, random.Uniform(-6, 6));
     const Eigen::Matrix3d turn = random.Rotation(3);
     const Eigen::Vector3d shift = unit * random.Direction(3);
@@ -221,13 +221,13 @@ TEST(BoundQualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
     for (const Contact& contact : grasp) {
       moved.insert(moved.begin(), {unit * (turn * contact.p) + shift, turn * contact.n});
     }
-    ExpectOverlap(bounds, Bound(moved, {shift, unit, 3}, half_angle), "moved and reversed");
-    EXPECT_GE(Bound(grasp, UnitFrame(3), 1.2 * half_angle).upper, bounds.lower);
+    ExpectOverlap(bounds, Bound(moved, {shift, unit, 3}, friction_angle), "moved and reversed");
+    EXPECT_GE(Bound(grasp, UnitFrame(3), 1.2 * friction_angle).upper, bounds.lower);
     Grasp more = grasp;
     more.push_back(random.OnBall(1, 3).front());
-    EXPECT_GE(Bound(more, UnitFrame(3), half_angle).upper, bounds.lower);
+    EXPECT_GE(Bound(more, UnitFrame(3), friction_angle).upper, bounds.lower);
     // Negative control: less friction reduces the quality by more than the gap.
-    const QualityBounds less = BoundQuality(grasp, UnitFrame(3), 0.8 * half_angle);
+    const QualityBounds less = BoundQuality(grasp, UnitFrame(3), 0.8 * friction_angle);
     EXPECT_LT(less.upper, bounds.lower);
   }
   EXPECT_GT(checked, 15);
@@ -250,11 +250,11 @@ TEST(BoundQualityTest, IsBoundedNearTheCriticalFriction) {
   int checked = 0;
   for (int trial = 0; trial < 200 && checked < 6; ++trial) {
     const Grasp grasp = random.OnBall(3 + trial % 2, 3);
-    const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    const auto required = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
     if (!required || required->lower < Radians(5) || required->upper > Radians(60)) continue;
     for (const double above : {1e-9, 1e-7, 1e-5, 1e-3}) {
-      const double half_angle = std::atan((1 + above) * std::tan(required->upper));
-      const QualityBounds bounds = BoundQuality(grasp, UnitFrame(3), half_angle);
+      const double friction_angle = std::atan((1 + above) * std::tan(required->upper));
+      const QualityBounds bounds = BoundQuality(grasp, UnitFrame(3), friction_angle);
       EXPECT_GT(bounds.upper, 0) << above;
       EXPECT_LE(bounds.upper - bounds.lower, std::max(kQualityGap, kGap * bounds.upper)) << above;
       EXPECT_LT(bounds.facets, 3 * kFewFacets) << above;
@@ -267,8 +267,8 @@ TEST(BoundQualityTest, IsBoundedNearTheCriticalFriction) {
 TEST(BoundQualityTest, ExtremeFrictionIsBounded) {
   for (const auto& [name, grasp] : SymmetricGrasps()) {
     for (const double mu : {1e-3, 10.0, 1e3, 1e6, 1e12}) {
-      const double half_angle = std::atan(mu);
-      const QualityBounds bounds = BoundQuality(grasp, UnitFrame(3), half_angle, 0.1);
+      const double friction_angle = std::atan(mu);
+      const QualityBounds bounds = BoundQuality(grasp, UnitFrame(3), friction_angle, 0.1);
       EXPECT_LE(bounds.lower, bounds.upper) << name << " " << mu;
       EXPECT_GE(bounds.lower, 0) << name << " " << mu;
       EXPECT_TRUE(std::isfinite(bounds.upper)) << name << " " << mu;

@@ -8,7 +8,7 @@
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
@@ -83,7 +83,7 @@ TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
       grasp.push_back({-n, n});
       moved.push_back({motion * Vector3d(-n), motion.linear() * n});
     }
-    const auto required = ComputeRequiredHalfAngle(grasp, frame);
+    const auto required = ComputeRequiredFrictionAngle(grasp, frame);
     if (!required || required->upper > Radians(60)) continue;
     ++checked;
     const double angle = required->upper + Radians(2);
@@ -120,9 +120,9 @@ TEST(FingerFrictionTest, TheWeakestFingerAloneIsThatOfAllToTheLastBit) {
   for (int trial = 0; trial < 300; ++trial) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = SomeGrasp(random, trial, dimension);
-    const double half_angle = random.Uniform(Radians(10), Radians(60));
-    const auto all = MeasureFingerFriction(grasp, UnitFrame(dimension), half_angle);
-    const auto alone = FindWeakestFinger(grasp, UnitFrame(dimension), half_angle);
+    const double friction_angle = random.Uniform(Radians(10), Radians(60));
+    const auto all = MeasureFingerFriction(grasp, UnitFrame(dimension), friction_angle);
+    const auto alone = FindWeakestFinger(grasp, UnitFrame(dimension), friction_angle);
     ASSERT_EQ(all.empty(), !alone.has_value()) << trial;
     if (!alone) {
       ++none;

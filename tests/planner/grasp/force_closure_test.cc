@@ -19,19 +19,21 @@ constexpr int kSides = 64;
 /// Feasibility tolerance of GLPK is 1e-7, so margins below this are not significant.
 constexpr double kProgramTolerance = 1e-6;
 
-bool PyramidForceClosure(const Grasp& grasp, int dimension, double half_angle, bool circumscribed) {
+bool PyramidForceClosure(const Grasp& grasp, int dimension, double friction_angle,
+                         bool circumscribed) {
   const auto margin =
-      PyramidMargin(grasp, UnitFrame(dimension), half_angle, {kSides, circumscribed}, {});
+      PyramidMargin(grasp, UnitFrame(dimension), friction_angle, {kSides, circumscribed}, {});
   return margin && *margin > kProgramTolerance;
 }
 
-bool PyramidRulesOut(const Grasp& grasp, int dimension, double half_angle) {
-  const auto margin = PyramidMargin(grasp, UnitFrame(dimension), half_angle, {kSides, true}, {});
+bool PyramidRulesOut(const Grasp& grasp, int dimension, double friction_angle) {
+  const auto margin =
+      PyramidMargin(grasp, UnitFrame(dimension), friction_angle, {kSides, true}, {});
   return !margin || *margin < -kProgramTolerance;
 }
 
-Decision Decide(const Grasp& grasp, int dimension, double half_angle) {
-  return TestForceClosure(grasp, UnitFrame(dimension), half_angle).decision;
+Decision Decide(const Grasp& grasp, int dimension, double friction_angle) {
+  return TestForceClosure(grasp, UnitFrame(dimension), friction_angle).decision;
 }
 
 struct Agreement {
@@ -41,15 +43,15 @@ struct Agreement {
 };
 
 /// Compare with both pyramids. A grasp between the two pyramids is not decided.
-void Compare(const Grasp& grasp, int dimension, double half_angle, Agreement& agreement) {
-  const ForceClosure answer = TestForceClosure(grasp, UnitFrame(dimension), half_angle);
+void Compare(const Grasp& grasp, int dimension, double friction_angle, Agreement& agreement) {
+  const ForceClosure answer = TestForceClosure(grasp, UnitFrame(dimension), friction_angle);
   EXPECT_LE(answer.margin_lower, answer.margin_upper);
-  if (PyramidForceClosure(grasp, dimension, half_angle, false)) {
-    EXPECT_EQ(answer.decision, Decision::kYes) << "half-angle " << Degrees(half_angle);
+  if (PyramidForceClosure(grasp, dimension, friction_angle, false)) {
+    EXPECT_EQ(answer.decision, Decision::kYes) << "half-angle " << Degrees(friction_angle);
     EXPECT_GT(answer.margin_lower, 0);
     ++agreement.yes;
-  } else if (PyramidRulesOut(grasp, dimension, half_angle)) {
-    EXPECT_EQ(answer.decision, Decision::kNo) << "half-angle " << Degrees(half_angle);
+  } else if (PyramidRulesOut(grasp, dimension, friction_angle)) {
+    EXPECT_EQ(answer.decision, Decision::kNo) << "half-angle " << Degrees(friction_angle);
     EXPECT_LE(answer.margin_upper, 0);
     ++agreement.no;
   } else {
@@ -62,8 +64,8 @@ TEST(ForceClosureTest, AgreesWithInscribedAndCircumscribedPyramidsInSpace) {
   Agreement agreement;
   for (int trial = 0; trial < 2400; ++trial) {
     const int count = 3 + trial % 4;
-    const double half_angle = Radians(random.Uniform(2, 60));
-    Compare(trial % 2 == 0 ? random.OnBall(count, 3) : random.OnBox(count, 3), 3, half_angle,
+    const double friction_angle = Radians(random.Uniform(2, 60));
+    Compare(trial % 2 == 0 ? random.OnBall(count, 3) : random.OnBox(count, 3), 3, friction_angle,
             agreement);
   }
   EXPECT_GT(agreement.yes, 300);
@@ -79,8 +81,8 @@ TEST(ForceClosureTest, AgreesWithTheLinearProgramInThePlane) {
   Agreement agreement;
   for (int trial = 0; trial < 2000; ++trial) {
     const int count = 2 + trial % 4;
-    const double half_angle = Radians(random.Uniform(2, 60));
-    Compare(trial % 2 == 0 ? random.OnBall(count, 2) : random.OnBox(count, 2), 2, half_angle,
+    const double friction_angle = Radians(random.Uniform(2, 60));
+    Compare(trial % 2 == 0 ? random.OnBall(count, 2) : random.OnBox(count, 2), 2, friction_angle,
             agreement);
   }
   EXPECT_GT(agreement.yes, 300);
@@ -230,12 +232,12 @@ void ForManyGrasps(unsigned seed, Check check) {
   for (int trial = 0; trial < 800; ++trial) {
     const int dimension = 2 + trial % 2;
     const int count = dimension + trial % 5;
-    const double half_angle = Radians(random.Uniform(2, 50));
+    const double friction_angle = Radians(random.Uniform(2, 50));
     const Grasp grasp =
         trial % 3 == 0 ? random.OnBox(count, dimension) : random.OnBall(count, dimension);
-    const bool holds = IsForceClosure(grasp, UnitFrame(dimension), half_angle);
+    const bool holds = IsForceClosure(grasp, UnitFrame(dimension), friction_angle);
     ++(holds ? yes : no);
-    check(random, grasp, dimension, half_angle, holds);
+    check(random, grasp, dimension, friction_angle, holds);
   }
   EXPECT_GT(yes, 100);
   EXPECT_GT(no, 100);
@@ -280,9 +282,9 @@ TEST(ForceClosureTest, NoFamilyOfGridGraspsIsLeftUndecidedWhereItHolds) {
   for (int trial = 0; trial < 1500; ++trial) {
     Grasp grasp = random.OnBox(4, 3);
     for (Contact& contact : grasp) contact.p = (2 * contact.p).array().round() / 2;
-    const double half_angle = Radians(random.Uniform(10, 40));
-    if (!PyramidForceClosure(grasp, 3, half_angle, false)) continue;
-    EXPECT_EQ(Decide(grasp, 3, half_angle), Decision::kYes);
+    const double friction_angle = Radians(random.Uniform(10, 40));
+    if (!PyramidForceClosure(grasp, 3, friction_angle, false)) continue;
+    EXPECT_EQ(Decide(grasp, 3, friction_angle), Decision::kYes);
     ++yes;
   }
   EXPECT_GT(yes, 150);

@@ -10,7 +10,7 @@
 #include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
 #include "planner/grasp/force_closure_core.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
@@ -30,9 +30,9 @@ UnitContacts Draw(RandomGrasps& random, int trial, int dimension) {
   return contacts;
 }
 
-void SetAngle(UnitContact& contact, double half_angle) {
-  contact.axial = std::cos(half_angle);
-  contact.tangential = std::sin(half_angle);
+void SetAngle(UnitContact& contact, double friction_angle) {
+  contact.axial = std::cos(friction_angle);
+  contact.tangential = std::sin(friction_angle);
 }
 
 /// Return an angle near the last one, as in a bisection, or any angle.

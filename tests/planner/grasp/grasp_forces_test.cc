@@ -37,9 +37,9 @@ double Unbalanced(const Grasp& grasp, const object::WrenchFrame& frame, const Gr
 }
 
 /// Return the normal component of the distance to the boundary of the cone; negative outside.
-double Spare(const Contact& contact, const Eigen::Vector3d& force, double half_angle) {
+double Spare(const Contact& contact, const Eigen::Vector3d& force, double friction_angle) {
   const double normal = contact.n.dot(force);
-  return normal - (force - normal * contact.n).norm() / std::tan(half_angle);
+  return normal - (force - normal * contact.n).norm() / std::tan(friction_angle);
 }
 
 double NormalSum(const Grasp& grasp, const GraspForces& result) {
@@ -58,14 +58,14 @@ TEST(GraspForcesTest, BalanceTheLoadInsideTheConesWithTheMarginThatTheyReport) {
     const Grasp grasp =
         trial % 3 == 0 ? random.OnBox(count, dimension) : random.OnBall(count, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(5, 50));
+    const double friction_angle = Radians(random.Uniform(5, 50));
     const Wrench load = RandomLoad(random, dimension, trial % 4 == 0 ? 0 : 0.01 * kTotal);
-    const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, kTotal);
+    const GraspForces result = ComputeGraspForces(grasp, frame, friction_angle, load, kTotal);
     ASSERT_EQ(result.forces.size(), grasp.size());
     EXPECT_NEAR(NormalSum(grasp, result), kTotal, kRounding);
     double least = kTotal;
     for (std::size_t i = 0; i < grasp.size(); ++i) {
-      least = std::min(least, Spare(grasp[i], result.forces[i], half_angle));
+      least = std::min(least, Spare(grasp[i], result.forces[i], friction_angle));
     }
     EXPECT_GE(least, -kRounding);
     if (result.balanced) {
@@ -91,11 +91,11 @@ TEST(GraspForcesTest, TheMarginIsTheOptimumOfTheLinearProgram) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(dimension + 1 + trial % 3, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(10, 50));
+    const double friction_angle = Radians(random.Uniform(10, 50));
     const Wrench load = RandomLoad(random, dimension, 0.02);
-    const GraspForces result = ComputeGraspForces(grasp, frame, half_angle, load, 1);
-    const auto inside = PyramidMargin(grasp, frame, half_angle, {64, false}, load);
-    const auto outside = PyramidMargin(grasp, frame, half_angle, {64, true}, load);
+    const GraspForces result = ComputeGraspForces(grasp, frame, friction_angle, load, 1);
+    const auto inside = PyramidMargin(grasp, frame, friction_angle, {64, false}, load);
+    const auto outside = PyramidMargin(grasp, frame, friction_angle, {64, true}, load);
     constexpr double kProgramTolerance = 1e-6;
     if (inside && *inside > kProgramTolerance) {
       EXPECT_TRUE(result.balanced);
@@ -146,10 +146,10 @@ TEST(GraspForcesTest, WhatTheBestEffortLeavesUnbalancedIsConvexInTheSumOfNormalF
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(2 + trial % 4, dimension);
     const Wrench load = RandomLoad(random, dimension, 1);
-    const double half_angle = Radians(random.Uniform(5, 40));
+    const double friction_angle = Radians(random.Uniform(5, 40));
     const auto left = [&](double total) {
       const GraspForces found =
-          ComputeGraspForces(grasp, UnitFrame(dimension), half_angle, load, total);
+          ComputeGraspForces(grasp, UnitFrame(dimension), friction_angle, load, total);
       return found.balanced ? 0 : -found.margin * total;
     };
     const double few = random.Uniform(0.1, 4);

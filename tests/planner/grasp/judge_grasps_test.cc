@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "planner/grasp/bound_quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
 namespace judge_grasps_test {
 
 constexpr int kContacts = 4;
-constexpr double kHalfAngle = 0.4;
+constexpr double kFrictionAngle = 0.4;
 /// Number of grasps: several of the blocks that threads process.
 constexpr int kGrasps = 1000;
 /// Number of measured grasps, sufficient for both answers.
@@ -51,7 +51,7 @@ class JudgeGraspsTest : public testing::Test {
     return grasp;
   }
 
-  JudgeOptions options_{.half_angle = kHalfAngle, .frame = UnitFrame(3)};
+  JudgeOptions options_{.friction_angle = kFrictionAngle, .frame = UnitFrame(3)};
   std::vector<double> points_, normals_;
 };
 
@@ -60,7 +60,7 @@ TEST_F(JudgeGraspsTest, DecidesEachAsTheTestForOneDoes) {
   ASSERT_EQ(verdicts.force_closure.size(), kGrasps);
   int yes = 0;
   for (std::size_t i = 0; i < kGrasps; ++i) {
-    const ForceClosure alone = TestForceClosure(GraspAt(i), options_.frame, kHalfAngle);
+    const ForceClosure alone = TestForceClosure(GraspAt(i), options_.frame, kFrictionAngle);
     EXPECT_EQ(verdicts.force_closure[i].decision, alone.decision) << i;
     EXPECT_EQ(verdicts.force_closure[i].margin_lower, alone.margin_lower) << i;
     EXPECT_EQ(verdicts.force_closure[i].margin_upper, alone.margin_upper) << i;
@@ -71,19 +71,19 @@ TEST_F(JudgeGraspsTest, DecidesEachAsTheTestForOneDoes) {
 }
 
 TEST_F(JudgeGraspsTest, MeasuresEachAsForOne) {
-  options_.required_half_angle = options_.quality = true;
+  options_.required_friction_angle = options_.quality = true;
   const GraspVerdicts verdicts = Judge(options_, kMeasured);
   int held = 0;
   for (std::size_t i = 0; i < kMeasured; ++i) {
     const Grasp grasp = GraspAt(i);
-    const QualityBounds quality = BoundQuality(grasp, options_.frame, kHalfAngle);
+    const QualityBounds quality = BoundQuality(grasp, options_.frame, kFrictionAngle);
     EXPECT_EQ(verdicts.quality[i], quality.lower) << i;
     EXPECT_EQ(verdicts.quality_upper[i], quality.upper) << i;
     EXPECT_LE(quality.upper - quality.lower, std::max(kQualityGap, 0.01 * quality.upper)) << i;
-    const auto required = ComputeRequiredHalfAngle(grasp, options_.frame);
-    EXPECT_EQ(required.has_value(), !std::isnan(verdicts.required_half_angle[i])) << i;
+    const auto required = ComputeRequiredFrictionAngle(grasp, options_.frame);
+    EXPECT_EQ(required.has_value(), !std::isnan(verdicts.required_friction_angle[i])) << i;
     if (required) {
-      EXPECT_EQ(verdicts.required_half_angle[i], required->upper) << i;
+      EXPECT_EQ(verdicts.required_friction_angle[i], required->upper) << i;
     }
     held += verdicts.quality[i] > 0 ? 1 : 0;
   }
@@ -104,7 +104,7 @@ TEST_F(JudgeGraspsTest, DoesNotDependOnThreads) {
 
 TEST_F(JudgeGraspsTest, ComputesNothingThatIsNotAskedFor) {
   const GraspVerdicts verdicts = Judge(options_);
-  EXPECT_TRUE(verdicts.required_half_angle.empty());
+  EXPECT_TRUE(verdicts.required_friction_angle.empty());
   EXPECT_TRUE(verdicts.quality.empty());
   EXPECT_TRUE(verdicts.quality_upper.empty());
 }
@@ -133,10 +133,10 @@ TEST_F(JudgeGraspsTest, RefusesArraysThatDoNotFit) {
 
 TEST_F(JudgeGraspsTest, RefusesAnglesAndThreadsOutOfRange) {
   for (const double angle : {0.0, std::numbers::pi / 2, std::nan("")}) {
-    options_.half_angle = angle;
+    options_.friction_angle = angle;
     EXPECT_THROW((void)Judge(options_), std::invalid_argument) << angle;
   }
-  options_.half_angle = kHalfAngle;
+  options_.friction_angle = kFrictionAngle;
   options_.threads = -1;
   EXPECT_THROW((void)Judge(options_), std::invalid_argument);
 }

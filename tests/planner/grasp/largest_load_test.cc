@@ -14,8 +14,8 @@ namespace largest_load_test {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfAngle = Radians(20);
-constexpr double kSqueeze = 50;
+constexpr double kFrictionAngle = Radians(20);
+constexpr double kGraspForce = 50;
 /// Tolerance of a load: far above the gap of the search, far below the difference of the tested
 /// loads.
 constexpr double kNear = 1e-7;
@@ -38,8 +38,8 @@ Grasp FourOnACube() {
 }
 
 double Largest(const Grasp& grasp, const object::WrenchFrame& frame, const Wrench& load,
-               const Wrench& direction, double half_angle = kHalfAngle) {
-  const auto found = ComputeLargestLoad(grasp, frame, half_angle, load, direction, kSqueeze);
+               const Wrench& direction, double friction_angle = kFrictionAngle) {
+  const auto found = ComputeLargestLoad(grasp, frame, friction_angle, load, direction, kGraspForce);
   if (!found) return -1;
   EXPECT_LE(found->lower, found->upper);
   EXPECT_LE(found->upper - found->lower, kNear);
@@ -47,7 +47,7 @@ double Largest(const Grasp& grasp, const object::WrenchFrame& frame, const Wrenc
 }
 
 TEST(LargestLoadTest, APairInThePlaneBearsFrictionAcrossItsLineAndTheWholeSqueezeAlongIt) {
-  const double mu = std::tan(kHalfAngle);
+  const double mu = std::tan(kFrictionAngle);
   for (const double sign : {1.0, -1.0}) {
     EXPECT_NEAR(Largest(Antipodal(), kPlane, {}, Force(sign, 0, 0)), 1, kNear);
     EXPECT_NEAR(Largest(Antipodal(), kPlane, {}, Force(0, sign, 0)), mu, kNear);
@@ -57,7 +57,7 @@ TEST(LargestLoadTest, APairInThePlaneBearsFrictionAcrossItsLineAndTheWholeSqueez
 }
 
 TEST(LargestLoadTest, FourFingersOnACubeBearWhatTheirFrictionGives) {
-  const double mu = std::tan(kHalfAngle);
+  const double mu = std::tan(kFrictionAngle);
   for (const double sign : {1.0, -1.0}) {
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Force(0, 0, sign)), mu, kNear);
     EXPECT_NEAR(Largest(FourOnACube(), kSpace, {}, Force(sign, 0, 0)), 1, kNear);
@@ -68,20 +68,21 @@ TEST(LargestLoadTest, FourFingersOnACubeBearWhatTheirFrictionGives) {
 }
 
 TEST(LargestLoadTest, AWeightTakesItsShareOneWayAndGivesItTheOther) {
-  const double mu = std::tan(kHalfAngle);
+  const double mu = std::tan(kFrictionAngle);
   const double share = 0.1;
-  const Wrench weight = Force(0, 0, -share * kSqueeze);
+  const Wrench weight = Force(0, 0, -share * kGraspForce);
   EXPECT_NEAR(Largest(FourOnACube(), kSpace, weight, Force(0, 0, -1)), mu - share, kNear);
   EXPECT_NEAR(Largest(FourOnACube(), kSpace, weight, Force(0, 0, 1)), mu + share, kNear);
 }
 
 TEST(LargestLoadTest, WhereNotEvenTheLoadIsBalancedThereIsNoAnswer) {
-  const Wrench too_heavy = Force(0, 0, -0.5 * kSqueeze);
-  EXPECT_FALSE(
-      ComputeLargestLoad(FourOnACube(), kSpace, kHalfAngle, too_heavy, Force(0, 0, -1), kSqueeze));
+  const Wrench too_heavy = Force(0, 0, -0.5 * kGraspForce);
+  EXPECT_FALSE(ComputeLargestLoad(FourOnACube(), kSpace, kFrictionAngle, too_heavy, Force(0, 0, -1),
+                                  kGraspForce));
   Grasp one_side = FourOnACube();
   one_side.resize(1);
-  EXPECT_FALSE(ComputeLargestLoad(one_side, kSpace, kHalfAngle, {}, Force(0, 0, -1), kSqueeze));
+  EXPECT_FALSE(
+      ComputeLargestLoad(one_side, kSpace, kFrictionAngle, {}, Force(0, 0, -1), kGraspForce));
 }
 
 TEST(LargestLoadTest, ForcesForTheLargestLoadExistAndForMoreDoNot) {
@@ -95,7 +96,7 @@ TEST(LargestLoadTest, ForcesForTheLargestLoadExistAndForMoreDoNot) {
       const Vector3d p = draw();
       grasp.push_back({p, (-p + 0.3 * draw()).normalized(), {}});
     }
-    const double quality = ComputeQuality(grasp, kSpace, kHalfAngle, 0.2).lower;
+    const double quality = ComputeQuality(grasp, kSpace, kFrictionAngle, 0.2).lower;
     if (quality == 0) continue;
     ++checked;
     Wrench direction{draw(), draw()};
@@ -105,13 +106,13 @@ TEST(LargestLoadTest, ForcesForTheLargestLoadExistAndForMoreDoNot) {
     const double largest = Largest(grasp, kSpace, {}, direction);
     EXPECT_GE(largest, quality - kNear);
     const auto balanced = [&](double share) {
-      const double size = share * largest * kSqueeze;
+      const double size = share * largest * kGraspForce;
       const Wrench load{size * direction.force, size * direction.torque_over_radius};
-      return ComputeGraspForces(grasp, kSpace, kHalfAngle, load, kSqueeze).balanced;
+      return ComputeGraspForces(grasp, kSpace, kFrictionAngle, load, kGraspForce).balanced;
     };
     EXPECT_TRUE(balanced(0.999)) << i;
     EXPECT_FALSE(balanced(1.001)) << i;
-    EXPECT_GE(Largest(grasp, kSpace, {}, direction, 1.2 * kHalfAngle), largest - kNear) << i;
+    EXPECT_GE(Largest(grasp, kSpace, {}, direction, 1.2 * kFrictionAngle), largest - kNear) << i;
   }
   EXPECT_GT(checked, 5);
 }
@@ -119,13 +120,13 @@ TEST(LargestLoadTest, ForcesForTheLargestLoadExistAndForMoreDoNot) {
 TEST(LargestLoadTest, WhatIsNoQuestionIsRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto ask = [](const Wrench& load, const Wrench& direction, double total) {
-    return ComputeLargestLoad(Antipodal(), kPlane, kHalfAngle, load, direction, total);
+    return ComputeLargestLoad(Antipodal(), kPlane, kFrictionAngle, load, direction, total);
   };
   EXPECT_THROW((void)ask({}, {}, 1), std::invalid_argument);
   EXPECT_THROW((void)ask({}, Force(1, 0, 0), 0), std::invalid_argument);
   EXPECT_THROW((void)ask({}, Force(nan, 0, 0), 1), std::invalid_argument);
   EXPECT_THROW((void)ask(Force(0, nan, 0), Force(1, 0, 0), 1), std::invalid_argument);
-  EXPECT_THROW((void)ComputeLargestLoad({}, kPlane, kHalfAngle, {}, Force(1, 0, 0), 1),
+  EXPECT_THROW((void)ComputeLargestLoad({}, kPlane, kFrictionAngle, {}, Force(1, 0, 0), 1),
                std::invalid_argument);
 }
 

@@ -104,9 +104,9 @@ std::vector<Eigen::Vector3d> CirclePoints(const Pyramid& pyramid) {
 
 /// Return the edges of a contact's pyramid for unit normal force; in the plane those of the cone
 /// itself.
-std::vector<Edge> Edges(const Contact& contact, int dimension, double half_angle,
+std::vector<Edge> Edges(const Contact& contact, int dimension, double friction_angle,
                         const Pyramid& pyramid) {
-  const double tangential = std::tan(half_angle);
+  const double tangential = std::tan(friction_angle);
   if (dimension == 2) {
     const Eigen::Vector3d tangent(-contact.n.y(), contact.n.x(), 0);
     return {{contact.n + tangential * tangent}, {contact.n - tangential * tangent}};
@@ -125,7 +125,7 @@ std::vector<Edge> Edges(const Contact& contact, int dimension, double half_angle
 }  // namespace
 
 std::optional<double> PyramidMargin(std::span<const Contact> contacts,
-                                    const object::WrenchFrame& frame, double half_angle,
+                                    const object::WrenchFrame& frame, double friction_angle,
                                     const Pyramid& pyramid, const Wrench& load) {
   Program program;
   for (int r = 0; r < 3; ++r) {
@@ -136,7 +136,7 @@ std::optional<double> PyramidMargin(std::span<const Contact> contacts,
   Vector6 inset = Vector6::Zero();
   for (const Contact& contact : contacts) {
     inset += WrenchOf(contact, frame, {contact.n}) / static_cast<double>(contacts.size());
-    for (const Edge& edge : Edges(contact, frame.dimension, half_angle, pyramid)) {
+    for (const Edge& edge : Edges(contact, frame.dimension, friction_angle, pyramid)) {
       program.AddColumn(WrenchOf(contact, frame, edge), 1, 0);
     }
   }

@@ -22,7 +22,7 @@ struct Pyramid {
 /// Every f_i − (m/k) n_i must lie in its pyramid. m may be negative; nullopt if no forces balance.
 [[nodiscard]] std::optional<double> PyramidMargin(std::span<const Contact> contacts,
                                                   const object::WrenchFrame& frame,
-                                                  double half_angle, const Pyramid& pyramid,
+                                                  double friction_angle, const Pyramid& pyramid,
                                                   const Wrench& load);
 
 }  // namespace regrasp::grasp

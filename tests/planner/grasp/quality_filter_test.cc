@@ -18,15 +18,15 @@ struct Counts {
 
 /// Query one filter about many grasps, each at two thresholds around its quality and at a common
 /// threshold.
-Counts Ask(int dimension, double half_angle, QualityFilter& filter) {
+Counts Ask(int dimension, double friction_angle, QualityFilter& filter) {
   constexpr double kSame = 0.05;
   RandomGrasps random(17);
   const object::WrenchFrame frame = UnitFrame(dimension);
   Counts counts;
   for (int trial = 0; trial < 80; ++trial) {
     const Grasp grasp = random.OnBall(dimension + 1, dimension);
-    if (!IsForceClosure(grasp, frame, half_angle)) continue;
-    const QualityBounds bounds = ComputeQuality(grasp, frame, half_angle);
+    if (!IsForceClosure(grasp, frame, friction_angle)) continue;
+    const QualityBounds bounds = ComputeQuality(grasp, frame, friction_angle);
     for (const double threshold : {0.5 * bounds.lower, 1.5 * bounds.upper, kSame}) {
       const bool good = filter.IsClearlyAtLeast(grasp, threshold);
       EXPECT_FALSE(good && threshold > bounds.upper) << trial << " at " << threshold;

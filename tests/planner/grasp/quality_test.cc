@@ -9,20 +9,20 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
 namespace quality_test {
 
 /// Compute the support of the wrench set in a direction, independently of the library.
-double Support(const Grasp& grasp, const object::WrenchFrame& frame, double half_angle,
+double Support(const Grasp& grasp, const object::WrenchFrame& frame, double friction_angle,
                const Eigen::Vector3d& v, const Eigen::Vector3d& omega) {
   double best = 0;
   for (const Contact& contact : grasp) {
     const Eigen::Vector3d u = v + omega.cross((contact.p - frame.origin) / frame.radius);
     const double normal = contact.n.dot(u);
-    best = std::max(best, normal + std::tan(half_angle) * (u - normal * contact.n).norm());
+    best = std::max(best, normal + std::tan(friction_angle) * (u - normal * contact.n).norm());
   }
   return best;
 }
@@ -49,10 +49,10 @@ TEST(QualityTest, BoundsNestAndTheUpperBoundIsNoMoreThanAnySupport) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(dimension + 1, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(15, 45));
-    if (!IsForceClosure(grasp, frame, half_angle)) continue;
-    const QualityBounds coarse = ComputeQuality(grasp, frame, half_angle, 0.2);
-    const QualityBounds fine = ComputeQuality(grasp, frame, half_angle, 0.05);
+    const double friction_angle = Radians(random.Uniform(15, 45));
+    if (!IsForceClosure(grasp, frame, friction_angle)) continue;
+    const QualityBounds coarse = ComputeQuality(grasp, frame, friction_angle, 0.2);
+    const QualityBounds fine = ComputeQuality(grasp, frame, friction_angle, 0.05);
     EXPECT_GT(coarse.lower, 0);
     EXPECT_LE(fine.upper - fine.lower, 0.05 * fine.upper);
     EXPECT_LE(fine.lower, coarse.upper);
@@ -64,7 +64,7 @@ TEST(QualityTest, BoundsNestAndTheUpperBoundIsNoMoreThanAnySupport) {
           random.Uniform(-1, 1) *
               (dimension == 3 ? random.Direction(3) : Eigen::Vector3d::UnitZ().eval());
       y.normalize();
-      least = std::min(least, Support(grasp, frame, half_angle, y.head<3>(), y.tail<3>()));
+      least = std::min(least, Support(grasp, frame, friction_angle, y.head<3>(), y.tail<3>()));
     }
     EXPECT_LE(fine.lower, least);
     ++checked;
@@ -80,16 +80,16 @@ TEST(QualityTest, AtLeastAgreesWithTheBounds) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = trial % 4 == 1 ? random.OnBox(4, dimension) : random.OnBall(4, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(10, 40));
-    const QualityBounds bounds = ComputeQuality(grasp, frame, half_angle, 0.1);
+    const double friction_angle = Radians(random.Uniform(10, 40));
+    const QualityBounds bounds = ComputeQuality(grasp, frame, friction_angle, 0.1);
     for (const double threshold : {0.5 * bounds.lower, 0.95 * bounds.lower}) {
       if (threshold <= 0) continue;
-      EXPECT_TRUE(QualityAtLeast(grasp, frame, half_angle, threshold));
+      EXPECT_TRUE(QualityAtLeast(grasp, frame, friction_angle, threshold));
       ++above;
     }
     for (const double threshold : {1.05 * bounds.upper, 3 * bounds.upper}) {
       if (threshold <= 0) continue;
-      EXPECT_FALSE(QualityAtLeast(grasp, frame, half_angle, threshold));
+      EXPECT_FALSE(QualityAtLeast(grasp, frame, friction_angle, threshold));
       ++below;
     }
   }
@@ -104,10 +104,10 @@ TEST(QualityTest, AtLeastIsNeverMoreThanThereIs) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(4, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const double half_angle = Radians(random.Uniform(10, 40));
-    const double upper = ComputeQuality(grasp, frame, half_angle, 0.02).upper;
+    const double friction_angle = Radians(random.Uniform(10, 40));
+    const double upper = ComputeQuality(grasp, frame, friction_angle, 0.02).upper;
     if (upper <= 0) continue;
-    EXPECT_FALSE(QualityAtLeast(grasp, frame, half_angle, 1.002 * upper)) << trial;
+    EXPECT_FALSE(QualityAtLeast(grasp, frame, friction_angle, 1.002 * upper)) << trial;
     ++checked;
   }
   EXPECT_GT(checked, 15);
@@ -118,8 +118,8 @@ TEST(QualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
   int checked = 0;
   for (int trial = 0; trial < 30; ++trial) {
     const Grasp grasp = random.OnBall(4, 3);
-    const double half_angle = Radians(random.Uniform(15, 30));
-    const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle, 0.1);
+    const double friction_angle = Radians(random.Uniform(15, 30));
+    const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), friction_angle, 0.1);
     if (bounds.upper <= 0) continue;
     ++checked;
     const double unit = std::pow(10, random.Uniform(-6, 6));
@@ -129,14 +129,15 @@ TEST(QualityTest, OrderRigidMotionAndUnitDoNotMatterAndMoreIsNeverWorse) {
     for (const Contact& contact : grasp) {
       moved.insert(moved.begin(), {unit * (turn * contact.p) + shift, turn * contact.n});
     }
-    const QualityBounds same = ComputeQuality(moved, {shift, unit, 3}, half_angle, 0.1);
+    const QualityBounds same = ComputeQuality(moved, {shift, unit, 3}, friction_angle, 0.1);
     EXPECT_LE(same.lower, bounds.upper);
     EXPECT_LE(bounds.lower, same.upper);
-    const QualityBounds more_friction = ComputeQuality(grasp, UnitFrame(3), 1.2 * half_angle, 0.1);
+    const QualityBounds more_friction =
+        ComputeQuality(grasp, UnitFrame(3), 1.2 * friction_angle, 0.1);
     EXPECT_GE(more_friction.upper, bounds.lower);
     Grasp more = grasp;
     more.push_back(random.OnBall(1, 3).front());
-    EXPECT_GE(ComputeQuality(more, UnitFrame(3), half_angle, 0.1).upper, bounds.lower);
+    EXPECT_GE(ComputeQuality(more, UnitFrame(3), friction_angle, 0.1).upper, bounds.lower);
   }
   EXPECT_GT(checked, 10);
 }
@@ -146,11 +147,11 @@ TEST(QualityTest, IsBoundedWithLittleWorkNearTheCriticalFriction) {
   int checked = 0;
   for (int trial = 0; trial < 200 && checked < 4; ++trial) {
     const Grasp grasp = random.OnBall(3, 3);
-    const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    const auto required = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
     if (!required || required->lower < Radians(5) || required->upper > Radians(60)) continue;
     for (const double above : {1e-7, 1e-4}) {
-      const double half_angle = std::atan((1 + above) * std::tan(required->upper));
-      const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle);
+      const double friction_angle = std::atan((1 + above) * std::tan(required->upper));
+      const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), friction_angle);
       EXPECT_GT(bounds.upper, 0);
       EXPECT_LT(bounds.upper, 1e-4);
       EXPECT_LE(bounds.upper - bounds.lower, std::max(kQualityGap, 0.01 * bounds.upper));
@@ -167,13 +168,13 @@ TEST(QualityTest, EndsItsWorkWithBoundsThatMayBeFarApart) {
   // work is four times as much.
   RandomGrasps random(45);
   const Grasp grasp = random.OnBall(24, 3);
-  const double half_angle = Radians(20);
-  ASSERT_TRUE(IsForceClosure(grasp, UnitFrame(3), half_angle));
-  const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), half_angle, 1e-12);
+  const double friction_angle = Radians(20);
+  ASSERT_TRUE(IsForceClosure(grasp, UnitFrame(3), friction_angle));
+  const QualityBounds bounds = ComputeQuality(grasp, UnitFrame(3), friction_angle, 1e-12);
   EXPECT_LE(bounds.lower, bounds.upper);
   EXPECT_GE(bounds.facets, kMostQualityFacets);
   EXPECT_LT(bounds.facets, 2 * kMostQualityFacets);
-  const QualityBounds coarse = ComputeQuality(grasp, UnitFrame(3), half_angle, 0.1);
+  const QualityBounds coarse = ComputeQuality(grasp, UnitFrame(3), friction_angle, 0.1);
   EXPECT_LE(coarse.lower, bounds.upper);
   EXPECT_LE(bounds.lower, coarse.upper);
 }

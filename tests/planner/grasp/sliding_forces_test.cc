@@ -59,7 +59,7 @@ TEST(SlidingForcesTest, WhereNothingSlidesTheyAreThoseOfTheGrasp) {
   const Grasp grasp = random.OnBall(5, 3);
   const Wrench load{{0, 0, -1}, Eigen::Vector3d::Zero()};
   const GraspForces expected =
-      ComputeGraspForces(grasp, UnitFrame(3), kFriction.half_angle, load, kTotal);
+      ComputeGraspForces(grasp, UnitFrame(3), kFriction.friction_angle, load, kTotal);
   const GraspForces result =
       ComputeSlidingForces(grasp, {}, UnitFrame(3), kFriction, load, kTotal, 0.1);
   EXPECT_EQ(result.margin, expected.margin);

@@ -17,7 +17,7 @@
 #include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
 #include "planner/grasp/quality_filter.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/subset_force_closure.h"
 #include "pyramid_program.h"
 #include "tests/fixtures/random_grasps.h"
@@ -40,8 +40,8 @@ Grasp Pair(double torsion, double offset = 0) {
   return Soft({{{-1, 0, 0}, {1, 0, 0}}, {{1, offset, 0}, {-1, 0, 0}}}, torsion);
 }
 
-Decision Decide(const Grasp& grasp, double half_angle) {
-  return TestForceClosure(grasp, kFrame, half_angle).decision;
+Decision Decide(const Grasp& grasp, double friction_angle) {
+  return TestForceClosure(grasp, kFrame, friction_angle).decision;
 }
 
 /// Return random soft fingers, two to five, on a sphere or a box.
@@ -69,13 +69,13 @@ TEST(SoftFingersTest, TwoNeedTheAngleOfTheirOffset) {
   // cannot balance.
   for (const double offset : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     for (const double torsion : {0.01, 1.0}) {
-      const auto required = ComputeRequiredHalfAngle(Pair(torsion, offset), kFrame);
+      const auto required = ComputeRequiredFrictionAngle(Pair(torsion, offset), kFrame);
       ASSERT_TRUE(required);
       EXPECT_NEAR(required->lower, std::atan(offset / 2), 1e-6);
       EXPECT_NEAR(required->upper, std::atan(offset / 2), 1e-6);
     }
   }
-  EXPECT_FALSE(ComputeRequiredHalfAngle(Pair(0), kFrame));
+  EXPECT_FALSE(ComputeRequiredFrictionAngle(Pair(0), kFrame));
 }
 
 TEST(SoftFingersTest, TwoBentAcrossEachOtherNeedWhatTheirTorsionLeaves) {
@@ -90,7 +90,7 @@ TEST(SoftFingersTest, TwoBentAcrossEachOtherNeedWhatTheirTorsionLeaves) {
       const Grasp grasp = Soft({{{-1, 0, 0}, {c, s, 0}}, {{1, 0, 0}, {-c, 0, s}}}, torsion);
       const double k = 2 + 4 / (torsion * torsion * s * s);
       const double expected = std::atan(std::sqrt(1 / (c * c + s * s / k) - 1));
-      const auto required = ComputeRequiredHalfAngle(grasp, kFrame);
+      const auto required = ComputeRequiredFrictionAngle(grasp, kFrame);
       ASSERT_TRUE(required);
       EXPECT_NEAR(required->lower, expected, 1e-6) << bend << " " << torsion;
       EXPECT_NEAR(required->upper, expected, 1e-6) << bend << " " << torsion;
@@ -122,11 +122,11 @@ TEST(SoftFingersTest, AgreesWithInscribedAndCircumscribedPolyhedra) {
   int yes = 0, no = 0, between = 0, helped = 0;
   for (int trial = 0; trial < 160; ++trial) {
     const Grasp grasp = Draw(random, trial);
-    const double half_angle = Radians(random.Uniform(5, 60));
-    const ForceClosure answer = TestForceClosure(grasp, kFrame, half_angle);
+    const double friction_angle = Radians(random.Uniform(5, 60));
+    const ForceClosure answer = TestForceClosure(grasp, kFrame, friction_angle);
     EXPECT_LE(answer.margin_lower, answer.margin_upper);
-    const auto inside = PyramidMargin(grasp, kFrame, half_angle, kInside, {});
-    const auto outside = PyramidMargin(grasp, kFrame, half_angle, kOutside, {});
+    const auto inside = PyramidMargin(grasp, kFrame, friction_angle, kInside, {});
+    const auto outside = PyramidMargin(grasp, kFrame, friction_angle, kOutside, {});
     if (inside && *inside > kTolerance) {
       EXPECT_EQ(answer.decision, Decision::kYes) << trial;
       // A program's margin m is a share of the mean normal force, of which it takes its part: ε = m
@@ -137,7 +137,7 @@ TEST(SoftFingersTest, AgreesWithInscribedAndCircumscribedPolyhedra) {
       ASSERT_TRUE(outside);
       EXPECT_LE(answer.margin_lower, epsilon(*outside) + kTolerance);
       EXPECT_GE(answer.margin_upper, epsilon(*inside) - kTolerance);
-      if (Decide(Soft(grasp, 0), half_angle) == Decision::kNo) ++helped;
+      if (Decide(Soft(grasp, 0), friction_angle) == Decision::kNo) ++helped;
       ++yes;
     } else if (!outside || *outside < -kTolerance) {
       EXPECT_EQ(answer.decision, Decision::kNo) << trial;
@@ -156,9 +156,9 @@ TEST(SoftFingersTest, ATorsionOfZeroHasTheBitsOfHardPoints) {
   RandomGrasps random(72);
   for (int trial = 0; trial < 400; ++trial) {
     const Grasp hard = random.OnBall(3 + trial % 4, 3);
-    const double half_angle = Radians(random.Uniform(5, 60));
-    const ForceClosure answer = TestForceClosure(hard, kFrame, half_angle);
-    const ForceClosure zero = TestForceClosure(Soft(hard, 0), kFrame, half_angle);
+    const double friction_angle = Radians(random.Uniform(5, 60));
+    const ForceClosure answer = TestForceClosure(hard, kFrame, friction_angle);
+    const ForceClosure zero = TestForceClosure(Soft(hard, 0), kFrame, friction_angle);
     EXPECT_EQ(zero.decision, answer.decision);
     EXPECT_EQ(zero.margin_lower, answer.margin_lower);
     EXPECT_EQ(zero.margin_upper, answer.margin_upper);
@@ -174,7 +174,7 @@ TEST(SoftFingersTest, OfFingersThatDoNotTwistAlmostNoTorsionChangesAlmostNothing
       const Vector3d p(std::cos(angle), std::sin(angle), 0);
       grasp.push_back({p, std::sin(Radians(20)) * Vector3d::UnitZ() - std::cos(Radians(20)) * p});
     }
-    const auto required = ComputeRequiredHalfAngle(Soft(grasp, torsion), kFrame);
+    const auto required = ComputeRequiredFrictionAngle(Soft(grasp, torsion), kFrame);
     ASSERT_TRUE(required);
     EXPECT_NEAR(required->upper, Radians(20), 1e-5);
   }
@@ -186,20 +186,20 @@ TEST(SoftFingersTest, MoreFrictionTorsionOrContactsNeverLoseForceClosure) {
   for (int trial = 0; trial < 800; ++trial) {
     const Grasp grasp = Draw(random, trial);
     const double torsion = grasp.front().torsion;
-    const double half_angle = Radians(random.Uniform(5, 60));
-    if (Decide(Soft(grasp, 0), half_angle) == Decision::kYes) {
-      EXPECT_EQ(Decide(grasp, half_angle), Decision::kYes) << trial;
+    const double friction_angle = Radians(random.Uniform(5, 60));
+    if (Decide(Soft(grasp, 0), friction_angle) == Decision::kYes) {
+      EXPECT_EQ(Decide(grasp, friction_angle), Decision::kYes) << trial;
       ++held_hard;
     }
-    if (Decide(grasp, half_angle) != Decision::kYes) continue;
+    if (Decide(grasp, friction_angle) != Decision::kYes) continue;
     ++held;
-    EXPECT_EQ(Decide(grasp, 1.1 * half_angle), Decision::kYes) << trial;
-    EXPECT_EQ(Decide(Soft(grasp, 1.5 * torsion), half_angle), Decision::kYes) << trial;
+    EXPECT_EQ(Decide(grasp, 1.1 * friction_angle), Decision::kYes) << trial;
+    EXPECT_EQ(Decide(Soft(grasp, 1.5 * torsion), friction_angle), Decision::kYes) << trial;
     Grasp more = grasp;
     more.push_back(random.OnBall(1, 3).front());
-    EXPECT_EQ(Decide(more, half_angle), Decision::kYes) << trial;
-    const auto required = ComputeRequiredHalfAngle(grasp, kFrame);
-    const auto with_more = ComputeRequiredHalfAngle(Soft(grasp, 1.5 * torsion), kFrame);
+    EXPECT_EQ(Decide(more, friction_angle), Decision::kYes) << trial;
+    const auto required = ComputeRequiredFrictionAngle(grasp, kFrame);
+    const auto with_more = ComputeRequiredFrictionAngle(Soft(grasp, 1.5 * torsion), kFrame);
     ASSERT_TRUE(required && with_more);
     EXPECT_LE(with_more->lower, required->upper);
     if (with_more->upper < required->lower) ++smaller;
@@ -214,8 +214,8 @@ TEST(SoftFingersTest, OrderRigidMotionAndUnitDoNotMatter) {
   int yes = 0, no = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const Grasp grasp = Draw(random, trial);
-    const double half_angle = Radians(random.Uniform(10, 50));
-    const Decision decision = Decide(grasp, half_angle);
+    const double friction_angle = Radians(random.Uniform(10, 50));
+    const Decision decision = Decide(grasp, friction_angle);
     if (decision == Decision::kTooClose) continue;
     (decision == Decision::kYes ? yes : no) += 1;
     const double unit = std::pow(10, random.Uniform(-4, 4));
@@ -227,10 +227,10 @@ TEST(SoftFingersTest, OrderRigidMotionAndUnitDoNotMatter) {
                                    contact.face, unit * contact.torsion});
     }
     const object::WrenchFrame frame{shift, unit, 3};
-    EXPECT_EQ(TestForceClosure(moved, frame, half_angle).decision, decision) << trial;
+    EXPECT_EQ(TestForceClosure(moved, frame, friction_angle).decision, decision) << trial;
     if (decision != Decision::kYes || yes % 8 != 0) continue;
-    const QualityBounds quality = ComputeQuality(grasp, kFrame, half_angle, 0.3);
-    const QualityBounds same = ComputeQuality(moved, frame, half_angle, 0.3);
+    const QualityBounds quality = ComputeQuality(grasp, kFrame, friction_angle, 0.3);
+    const QualityBounds same = ComputeQuality(moved, frame, friction_angle, 0.3);
     EXPECT_LE(same.lower, quality.upper * (1 + 1e-9));
     EXPECT_LE(quality.lower, same.upper * (1 + 1e-9));
   }
@@ -266,45 +266,45 @@ TEST(SoftFingersTest, TheRimWrenchAttainsTheSupportAndNoOtherExceedsIt) {
 TEST(SoftFingersTest, APairBearsForceAndTorqueOnAnEllipse) {
   // Both fingers exert half of the total normal force. Their tangential force F and their torque T
   // about the line satisfy (F / μ)² + (T / (μ e))² = 1.
-  const double half_angle = Radians(20), mu = std::tan(half_angle), torsion = 0.3;
+  const double friction_angle = Radians(20), mu = std::tan(friction_angle), torsion = 0.3;
   for (const double degrees : {0.0, 20.0, 45.0, 70.0, 90.0}) {
     const double c = std::cos(Radians(degrees)), s = std::sin(Radians(degrees));
-    const auto largest = ComputeLargestLoad(Pair(torsion), kFrame, half_angle, {},
+    const auto largest = ComputeLargestLoad(Pair(torsion), kFrame, friction_angle, {},
                                             {{0, c, 0}, {torsion * s, 0, 0}}, 7);
     ASSERT_TRUE(largest);
     EXPECT_NEAR(largest->lower, mu, 1e-6) << degrees;
     EXPECT_NEAR(largest->upper, mu, 1e-6) << degrees;
   }
   // Hard contacts resist no torque about their line.
-  const auto none = ComputeLargestLoad(Pair(0), kFrame, half_angle, {}, {{}, {1, 0, 0}}, 7);
+  const auto none = ComputeLargestLoad(Pair(0), kFrame, friction_angle, {}, {{}, {1, 0, 0}}, 7);
   ASSERT_TRUE(none);
   EXPECT_NEAR(none->upper, 0, 1e-6);
 }
 
 TEST(SoftFingersTest, TheQualityOfAPairIsWhatItBearsAboutItsLine) {
-  const double half_angle = Radians(20), mu = std::tan(half_angle);
+  const double friction_angle = Radians(20), mu = std::tan(friction_angle);
   for (const double torsion : {0.02, 0.1, 0.4}) {
-    const QualityBounds quality = ComputeQuality(Pair(torsion), kFrame, half_angle, 0.1);
+    const QualityBounds quality = ComputeQuality(Pair(torsion), kFrame, friction_angle, 0.1);
     EXPECT_LE(quality.lower, mu * torsion * (1 + 1e-9));
     EXPECT_GE(quality.upper, mu * torsion * (1 - 1e-9));
     EXPECT_LE(quality.upper - quality.lower, 0.101 * quality.upper);
-    EXPECT_TRUE(QualityAtLeast(Pair(torsion), kFrame, half_angle, 0.95 * mu * torsion));
-    EXPECT_FALSE(QualityAtLeast(Pair(torsion), kFrame, half_angle, 1.05 * mu * torsion));
-    QualityFilter filter(kFrame, half_angle);
+    EXPECT_TRUE(QualityAtLeast(Pair(torsion), kFrame, friction_angle, 0.95 * mu * torsion));
+    EXPECT_FALSE(QualityAtLeast(Pair(torsion), kFrame, friction_angle, 1.05 * mu * torsion));
+    QualityFilter filter(kFrame, friction_angle);
     EXPECT_FALSE(filter.IsClearlyAtLeast(Pair(torsion), 1.05 * mu * torsion));
   }
-  EXPECT_EQ(ComputeQuality(Pair(0), kFrame, half_angle).upper, 0);
+  EXPECT_EQ(ComputeQuality(Pair(0), kFrame, friction_angle).upper, 0);
 }
 
 TEST(SoftFingersTest, ForcesAndTorquesBalanceTheLoadInsideTheEllipsoids) {
   RandomGrasps random(76);
-  const double half_angle = Radians(30), mu = std::tan(half_angle), total = 5;
+  const double friction_angle = Radians(30), mu = std::tan(friction_angle), total = 5;
   const object::WrenchFrame frame{{0.1, -0.2, 0.3}, 1.7, 3};
   int balanced = 0, twisting = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Grasp grasp = Draw(random, trial);
     const Wrench load{0.2 * random.Direction(3), 0.1 * random.Direction(3)};
-    const GraspForces found = ComputeGraspForces(grasp, frame, half_angle, load, total);
+    const GraspForces found = ComputeGraspForces(grasp, frame, friction_angle, load, total);
     ASSERT_EQ(found.torques.size(), grasp.size());
     if (!found.balanced) continue;
     ++balanced;

@@ -11,7 +11,7 @@ namespace subset_force_closure_test {
 
 using Subsets = std::vector<std::array<int, 4>>;
 
-Subsets OneByOne(const Grasp& points, double half_angle) {
+Subsets OneByOne(const Grasp& points, double friction_angle) {
   Subsets found;
   const int count = static_cast<int>(points.size());
   for (int i = 0; i < count; ++i) {
@@ -19,7 +19,7 @@ Subsets OneByOne(const Grasp& points, double half_angle) {
       for (int k = j + 1; k < count; ++k) {
         for (int l = k + 1; l < count; ++l) {
           const std::array grasp{points[i], points[j], points[k], points[l]};
-          if (IsForceClosure(grasp, UnitFrame(3), half_angle)) found.push_back({i, j, k, l});
+          if (IsForceClosure(grasp, UnitFrame(3), friction_angle)) found.push_back({i, j, k, l});
         }
       }
     }

@@ -35,8 +35,8 @@ class ConvertModelTest : public FolderTest {
 
 /// Return a model of one revolute joint with inertia 0.04 kg m² and one actuator, with extra
 /// elements.
-std::string Hinge(const std::string& settings, const std::string& joint,
-                  const std::string& actuator) {
+std::string Revolute(const std::string& settings, const std::string& joint,
+                     const std::string& actuator) {
   return "<mujoco>" + settings + R"(<worldbody><body name="b"><inertial pos="0 0 0" mass="1"
     diaginertia="0.04 0.04 0.04"/><joint name="j" axis="0 0 1" )" +
          joint + R"(/><geom type="sphere" size="0.1"/></body></worldbody><actuator>)" + actuator +
@@ -55,7 +55,7 @@ double Bias(const CompiledModel& compiled, int i) { return compiled.model->actua
 
 TEST_F(ConvertModelTest, AModelOfThisVersionIsLeftAsItIs) {
   const CompiledModel compiled =
-      Compile(Hinge("", R"(range="-30 60" limited="true")", R"(<position joint="j" kp="2"/>)"));
+      Compile(Revolute("", R"(range="-30 60" limited="true")", R"(<position joint="j" kp="2"/>)"));
   EXPECT_THAT(compiled.text.conversions, IsEmpty());
   EXPECT_EQ(Bias(compiled, 1), -2);
 }
@@ -65,7 +65,7 @@ TEST_F(ConvertModelTest, PositionGainsOfAClassBecomeAGeneralActuator) {
       R"(<default><position kp="3" kv="0.5"/><default class="soft"><position kp="2"/></default>
          </default>)";
   const CompiledModel compiled =
-      Compile(Hinge(defaults, "", R"(<position name="a" joint="j" class="soft"/>)"));
+      Compile(Revolute(defaults, "", R"(<position name="a" joint="j" class="soft"/>)"));
   EXPECT_EQ(compiled.model->actuator_gainprm[0], 2);
   EXPECT_EQ(Bias(compiled, 1), -2);
   EXPECT_EQ(Bias(compiled, 2), -0.5);
@@ -74,17 +74,17 @@ TEST_F(ConvertModelTest, PositionGainsOfAClassBecomeAGeneralActuator) {
 
 /// Independent calculation: the critical damping of a mass m on a spring k is 2 √(k m).
 TEST_F(ConvertModelTest, ADampingRatioIsThatOfTheInertiaThatTheActuatorMoves) {
-  const CompiledModel compiled =
-      Compile(Hinge("", R"(armature="0.05")", R"(<position joint="j" kp="4" dampratio="0.5"/>)"));
+  const CompiledModel compiled = Compile(
+      Revolute("", R"(armature="0.05")", R"(<position joint="j" kp="4" dampratio="0.5"/>)"));
   EXPECT_NEAR(Bias(compiled, 2), -0.5 * 2 * std::sqrt(4 * 0.09), 1e-9);
-  const CompiledModel geared = Compile(
-      Hinge("", R"(armature="0.05")", R"(<position joint="j" kp="4" gear="3" dampratio="0.5"/>)"));
+  const CompiledModel geared = Compile(Revolute(
+      "", R"(armature="0.05")", R"(<position joint="j" kp="4" gear="3" dampratio="0.5"/>)"));
   EXPECT_NEAR(Bias(geared, 2), -0.5 * 2 * std::sqrt(4 * 0.09 / 9), 1e-9);
 }
 
 TEST_F(ConvertModelTest, InheritedRangesAreRadians) {
   const CompiledModel compiled =
-      Compile(Hinge("", R"(range="-30 60")", R"(<position joint="j" inheritrange="1"/>)"));
+      Compile(Revolute("", R"(range="-30 60")", R"(<position joint="j" inheritrange="1"/>)"));
   EXPECT_NEAR(compiled.model->actuator_ctrlrange[0], compiled.model->jnt_range[0], 1e-12);
   EXPECT_NEAR(compiled.model->actuator_ctrlrange[1], compiled.model->jnt_range[1], 1e-12);
   EXPECT_NEAR(compiled.model->jnt_range[1], std::numbers::pi / 3, 1e-12);
@@ -94,8 +94,8 @@ TEST_F(ConvertModelTest, InheritedRangesAreRadians) {
 }
 
 TEST_F(ConvertModelTest, ForcesOfAJointLimitItsActuatorByTheGear) {
-  const CompiledModel compiled =
-      Compile(Hinge("", R"(actuatorfrcrange="-1 2")", R"(<motor joint="j" gear="-2" name="a"/>)"));
+  const CompiledModel compiled = Compile(
+      Revolute("", R"(actuatorfrcrange="-1 2")", R"(<motor joint="j" gear="-2" name="a"/>)"));
   EXPECT_EQ(compiled.model->actuator_forcerange[0], -1);
   EXPECT_EQ(compiled.model->actuator_forcerange[1], 0.5);
   EXPECT_THAT(Attributes(compiled.text), Contains("joint actuatorfrcrange"));
@@ -103,9 +103,9 @@ TEST_F(ConvertModelTest, ForcesOfAJointLimitItsActuatorByTheGear) {
 
 TEST_F(ConvertModelTest, SettingsAreRenamedOrLeftOutAndListed) {
   const CompiledModel compiled =
-      Compile(Hinge(R"(<option integrator="implicitfast" ccd_iterations="70" ls_iterations="9">
+      Compile(Revolute(R"(<option integrator="implicitfast" ccd_iterations="70" ls_iterations="9">
                <flag eulerdamp="disable"/></option>)",
-                    "", R"(<motor joint="j"/>)"));
+                       "", R"(<motor joint="j"/>)"));
   EXPECT_EQ(compiled.model->opt.integrator, mjINT_IMPLICIT);
   EXPECT_EQ(compiled.model->opt.mpr_iterations, 70);
   EXPECT_THAT(Attributes(compiled.text),
@@ -160,7 +160,7 @@ TEST_F(ConvertModelTest, IncludedFilesStandInTheirPlaces) {
   Write("parts/gains.xml",
         R"(<mujocoinclude><default><position kp="3" kv="0.5"/></default></mujocoinclude>)");
   const CompiledModel compiled =
-      Compile(Hinge(R"(<include file="parts/gains.xml"/>)", "", R"(<position joint="j"/>)"));
+      Compile(Revolute(R"(<include file="parts/gains.xml"/>)", "", R"(<position joint="j"/>)"));
   EXPECT_EQ(Bias(compiled, 2), -0.5);
   ASSERT_EQ(compiled.text.files.size(), 2U);
   EXPECT_EQ(compiled.text.files[1], folder_ / "parts/gains.xml");

@@ -17,12 +17,12 @@ namespace hand_file_test {
 
 const std::string kHands = ProjectPath("models/hands/");
 
-Posture RandomPosture(const Finger& finger, RandomStream& random) {
-  Posture posture(finger.drives);
+JointConfiguration RandomConfiguration(const Finger& finger, RandomStream& random) {
+  JointConfiguration configuration(finger.drives);
   for (int i = 0; i < finger.drives; ++i) {
-    posture[i] = finger.lower[i] + (finger.upper[i] - finger.lower[i]) * random.Uniform();
+    configuration[i] = finger.lower[i] + (finger.upper[i] - finger.lower[i]) * random.Uniform();
   }
-  return posture;
+  return configuration;
 }
 
 /// MuJoCo's kinematics are the independent reference.
@@ -37,8 +37,8 @@ TEST(HandFileTest, TipsAreWhereTheEngineHasThem) {
     RandomStream random(1, RandomUse::kCandidates);
     for (int i = 0; i < 50; ++i) {
       for (const Finger& finger : hand.fingers) {
-        const Posture posture = RandomPosture(finger, random);
-        const std::vector<double> angles = JointAngles(finger, posture);
+        const JointConfiguration configuration = RandomConfiguration(finger, random);
+        const std::vector<double> angles = JointAngles(finger, configuration);
         for (std::size_t j = 0; j < angles.size(); ++j) {
           const int id = mj_name2id(model, mjOBJ_JOINT, finger.joints[j].name.c_str());
           ASSERT_GE(id, 0);
@@ -48,7 +48,7 @@ TEST(HandFileTest, TipsAreWhereTheEngineHasThem) {
         const int tip = mj_name2id(model, mjOBJ_GEOM, (finger.name + "_tip").c_str());
         ASSERT_GE(tip, 0);
         const Eigen::Map<const Eigen::Vector3d> expected(data->geom_xpos + 3 * tip);
-        EXPECT_LT((TipAt(finger, posture).centre - expected).norm(), 1e-12);
+        EXPECT_LT((TipAt(finger, configuration).centre - expected).norm(), 1e-12);
       }
     }
     mj_deleteData(data);
@@ -60,11 +60,11 @@ TEST(HandFileTest, TheJacobianIsTheDerivative) {
   const HandModel hand = ReadHand(kHands + "ring5.json");
   RandomStream random(2, RandomUse::kCandidates);
   for (const Finger& finger : hand.fingers) {
-    const Posture posture = RandomPosture(finger, random);
-    const TipState state = TipAt(finger, posture);
+    const JointConfiguration configuration = RandomConfiguration(finger, random);
+    const TipState state = TipAt(finger, configuration);
     for (int i = 0; i < finger.drives; ++i) {
-      Posture more = posture;
-      Posture less = posture;
+      JointConfiguration more = configuration;
+      JointConfiguration less = configuration;
       more[i] += 1e-6;
       less[i] -= 1e-6;
       const Eigen::Vector3d expected =
@@ -82,15 +82,16 @@ TEST(InverseKinematicsTest, FindsNearlyEveryPlaceThatATipCanBeIn) {
   const Finger& finger = hand.fingers[1];
   const InverseKinematics inverse(finger);
   for (int i = 0; i < kTries; ++i) {
-    const TipState state = TipAt(finger, RandomPosture(finger, random));
+    const TipState state = TipAt(finger, RandomConfiguration(finger, random));
     const TipTarget target{state.centre, state.axis};
-    const std::optional<Posture> posture = inverse.Solve(target);
-    if (!posture) continue;
+    const std::optional<JointConfiguration> configuration = inverse.Solve(target);
+    if (!configuration) continue;
     ++found;
-    EXPECT_LT((TipAt(finger, *posture).centre - target.centre).norm(), 1e-9);
-    EXPECT_GE((*posture - finger.lower).minCoeff(), 0.019);
-    EXPECT_GE((finger.upper - *posture).minCoeff(), 0.019);
-    EXPECT_GE(TipAt(finger, *posture).axis.dot(target.towards), std::cos(PostureLimits().approach));
+    EXPECT_LT((TipAt(finger, *configuration).centre - target.centre).norm(), 1e-9);
+    EXPECT_GE((*configuration - finger.lower).minCoeff(), 0.019);
+    EXPECT_GE((finger.upper - *configuration).minCoeff(), 0.019);
+    EXPECT_GE(TipAt(finger, *configuration).axis.dot(target.towards),
+              std::cos(ConfigurationLimits().approach));
   }
   EXPECT_GT(found, kTries * 9 / 10);
   EXPECT_FALSE(inverse.Solve({{1, 1, 1}, {0, 0, 1}}));
@@ -100,15 +101,15 @@ TEST(InverseKinematicsTest, FindsNearlyEveryPlaceThatATipCanBeIn) {
 TEST(InverseKinematicsTest, FollowsATargetWithoutJumps) {
   const HandModel hand = ReadHand(kHands + "ring5.json");
   const InverseKinematics inverse(hand.fingers[0]);
-  std::optional<Posture> last;
+  std::optional<JointConfiguration> last;
   for (int i = 0; i <= 100; ++i) {
     const TipTarget target{{0.035, -0.02 + 0.0004 * i, 0.06}, {-1, 0, 0}};
-    const std::optional<Posture> posture = inverse.Solve(target);
-    ASSERT_TRUE(posture) << i;
+    const std::optional<JointConfiguration> configuration = inverse.Solve(target);
+    ASSERT_TRUE(configuration) << i;
     if (last) {
-      EXPECT_LT((*posture - *last).cwiseAbs().maxCoeff(), 0.05) << i;
+      EXPECT_LT((*configuration - *last).cwiseAbs().maxCoeff(), 0.05) << i;
     }
-    last = posture;
+    last = configuration;
   }
 }
 
@@ -122,19 +123,20 @@ TEST(InverseKinematicsTest, NearAPostureItStaysNearWhereverTheMiddleIs) {
   int drawn_away = 0;
   for (int i = 0; i < 200; ++i) {
     // The configuration has a margin to its limits.
-    const Posture posture =
-        inverse.middle() + 0.8 * (RandomPosture(finger, random) - inverse.middle());
-    const TipState state = TipAt(finger, posture);
+    const JointConfiguration configuration =
+        inverse.middle() + 0.8 * (RandomConfiguration(finger, random) - inverse.middle());
+    const TipState state = TipAt(finger, configuration);
     const TipTarget target{state.centre, state.axis};
-    const auto same = inverse.SolveNear(target, posture);
+    const auto same = inverse.SolveNear(target, configuration);
     ASSERT_TRUE(same);
-    EXPECT_LT((*same - posture).norm(), 1e-9);
-    const auto near = inverse.SolveNear(target, posture + Posture::Constant(posture.size(), 0.01));
+    EXPECT_LT((*same - configuration).norm(), 1e-9);
+    const auto near = inverse.SolveNear(
+        target, configuration + JointConfiguration::Constant(configuration.size(), 0.01));
     ASSERT_TRUE(near);
     EXPECT_LT((TipAt(finger, *near).centre - target.centre).norm(), kTipTolerance);
-    EXPECT_LT((*near - posture).norm(), 0.1);
-    const auto middle = inverse.SolveFrom(target, posture);
-    drawn_away += middle && (*middle - posture).norm() > 0.1;
+    EXPECT_LT((*near - configuration).norm(), 0.1);
+    const auto middle = inverse.SolveFrom(target, configuration);
+    drawn_away += middle && (*middle - configuration).norm() > 0.1;
   }
   EXPECT_GT(drawn_away, 50);
 }
@@ -146,8 +148,8 @@ TEST(FingerKinematicsTest, MotionIsBounded) {
   const Finger& finger = hand.fingers[0];
   double tightest = 0;
   for (int i = 0; i < 300; ++i) {
-    const Posture from = RandomPosture(finger, random);
-    const Posture to = from + 0.1 * (RandomPosture(finger, random) - from);
+    const JointConfiguration from = RandomConfiguration(finger, random);
+    const JointConfiguration to = from + 0.1 * (RandomConfiguration(finger, random) - from);
     for (const LinkShape& link : finger.shapes) {
       const double bound = MotionBound(finger, from, to, link.after, LinkReach(finger, link));
       const auto before = FramesOf(finger, from);

@@ -248,11 +248,12 @@ TEST_F(JointRelationsTest, CoupledFingersMoveAsTheEngineHasThem) {
   const DataPtr data = AtRest(model);
   RandomStream random(1, RandomUse::kCandidates);
   for (int i = 0; i < 20; ++i) {
-    Posture posture = finger.lower;
-    for (int k = 0; k < 2; ++k) posture[k] += (finger.upper - finger.lower)[k] * random.Uniform();
-    const std::vector<double> angles = JointAngles(finger, posture);
+    JointConfiguration configuration = finger.lower;
+    for (int k = 0; k < 2; ++k)
+      configuration[k] += (finger.upper - finger.lower)[k] * random.Uniform();
+    const std::vector<double> angles = JointAngles(finger, configuration);
     EXPECT_NEAR(angles[2], 0.1 + 0.2 + 1.06 * angles[1], 1e-12);
-    EXPECT_NEAR(DriveAngle(finger.joints[2], angles[2]), posture[1], 1e-12);
+    EXPECT_NEAR(DriveAngle(finger.joints[2], angles[2]), configuration[1], 1e-12);
     EXPECT_GE(angles[2], -0.5 - 1e-12);
     EXPECT_LE(angles[2], 1.6 + 1e-12);
     for (int k = 0; k < 3; ++k) {
@@ -265,7 +266,7 @@ TEST_F(JointRelationsTest, CoupledFingersMoveAsTheEngineHasThem) {
     const Eigen::Vector3d expected =
         PoseAt(data->xpos, data->xmat, palm).inverse() *
         (PoseAt(data->xpos, data->xmat, tip) * Eigen::Vector3d(0, 0, 0.024));
-    EXPECT_LT((TipAt(finger, posture).centre - expected).norm(), 1e-9);
+    EXPECT_LT((TipAt(finger, configuration).centre - expected).norm(), 1e-9);
   }
 }
 

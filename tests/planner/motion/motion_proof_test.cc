@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 using Kind = ProofVerdict::Kind;
 using Pieces = std::vector<MotionSegment>;
 
-constexpr double kHalfAngle = Radians(20);
-const double kMu = std::tan(kHalfAngle);
+constexpr double kFrictionAngle = Radians(20);
+const double kMu = std::tan(kFrictionAngle);
 
 /// Counts of verdicts on random motions.
 struct Counts {
@@ -32,7 +32,7 @@ struct Counts {
 /// Return true if all sampled instants are force closure.
 bool SeemsToHold(const GraspMotion& motion, int dimension) {
   for (int k = 0; k <= 200; ++k) {
-    if (!grasp::IsForceClosure(GraspAt(motion, k / 200.0), FrameOf(dimension), kHalfAngle))
+    if (!grasp::IsForceClosure(GraspAt(motion, k / 200.0), FrameOf(dimension), kFrictionAngle))
       return false;
   }
   return true;
@@ -42,7 +42,7 @@ bool SeemsToHold(const GraspMotion& motion, int dimension) {
 void Count(const grasp::Grasp& from, const grasp::Grasp& to, int dimension, Counts& counts) {
   const GraspMotion motion = MotionOf(from, to);
   const bool holds = SeemsToHold(motion, dimension);
-  const auto pieces = FindMotionProof(motion, dimension, kHalfAngle);
+  const auto pieces = FindMotionProof(motion, dimension, kFrictionAngle);
   counts.held += holds ? 1 : 0;
   counts.lost += holds ? 0 : 1;
   if (!pieces) return;
@@ -75,7 +75,7 @@ TEST(MotionProofTest, StraightMotionsAreProvedAllAlong) {
 
 TEST(MotionProofTest, MotionsOfNoLengthAreProvedInOnePiece) {
   const grasp::Grasp grasp = CrossedGrasp();
-  const auto pieces = FindMotionProof(MotionOf(grasp, grasp), 3, kHalfAngle);
+  const auto pieces = FindMotionProof(MotionOf(grasp, grasp), 3, kFrictionAngle);
   ASSERT_TRUE(pieces);
   EXPECT_EQ(pieces->size(), 1U);
   EXPECT_EQ(CheckMotionProof(grasp, grasp, 3, kMu, *pieces).kind, Kind::kForceClosure);
@@ -87,7 +87,7 @@ TEST(MotionProofTest, VeryShortMotionsAreProved) {
     grasp::Grasp to = from;
     to[0].p.y() += length;
     to[3].p.z() -= length;
-    const auto pieces = FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
+    const auto pieces = FindMotionProof(MotionOf(from, to), 3, kFrictionAngle);
     ASSERT_TRUE(pieces) << length;
     EXPECT_EQ(CheckMotionProof(from, to, 3, kMu, *pieces).kind, Kind::kForceClosure) << length;
   }
@@ -155,19 +155,19 @@ struct Corner {
                        {Vector3d(-1, -0.5, 0), Vector3d::UnitX()},
                        {Vector3d(-0.5, -1, 0), Vector3d::UnitY()}};
   grasp::Grasp to = from;
-  double half_angle = Radians(50);
+  double friction_angle = Radians(50);
   Corner() { to[0].n = -Vector3d::UnitY(); }
 };
 
 TEST(MotionProofTest, AFingerTurnsAroundACorner) {
   const Corner corner;
-  const auto pieces = FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.half_angle);
+  const auto pieces = FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.friction_angle);
   ASSERT_TRUE(pieces);
-  const auto verdict = [&](double half_angle, const Pieces& some) {
-    return CheckMotionProof(corner.from, corner.to, 2, std::tan(half_angle), some).kind;
+  const auto verdict = [&](double friction_angle, const Pieces& some) {
+    return CheckMotionProof(corner.from, corner.to, 2, std::tan(friction_angle), some).kind;
   };
-  EXPECT_EQ(verdict(corner.half_angle, *pieces), Kind::kForceClosure);
-  EXPECT_EQ(verdict(corner.half_angle + Radians(10), *pieces), Kind::kForceClosure);
+  EXPECT_EQ(verdict(corner.friction_angle, *pieces), Kind::kForceClosure);
+  EXPECT_EQ(verdict(corner.friction_angle + Radians(10), *pieces), Kind::kForceClosure);
   // At 45° or less, no force is inside the cones of both edges.
   EXPECT_EQ(verdict(Radians(44), *pieces), Kind::kNothing);
 }
@@ -193,7 +193,7 @@ TEST(MotionProofTest, ConesOfTurningNormalsAreTakenNarrower) {
 
 TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
   const Corner corner;
-  Pieces pieces = *FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.half_angle);
+  Pieces pieces = *FindMotionProof(MotionOf(corner.from, corner.to), 2, corner.friction_angle);
   // The forces balance at both ends as before, but belong to other pieces of the rotation.
   Pieces one = {pieces.front()};
   one[0].to = 1;
@@ -202,7 +202,7 @@ TEST(MotionProofTest, AForceInsideTheConeOfOneEndOnlyIsRefused) {
   grasp::Grasp flipped = corner.to;
   flipped[0].n = Vector3d::UnitX();
   EXPECT_EQ(CheckMotionProof(corner.from, flipped, 2, kMu, pieces).kind, Kind::kNothing);
-  EXPECT_FALSE(FindMotionProof(MotionOf(corner.from, flipped), 2, corner.half_angle));
+  EXPECT_FALSE(FindMotionProof(MotionOf(corner.from, flipped), 2, corner.friction_angle));
 }
 
 TEST(MotionProofTest, ForcesThatBalanceAtTheEndsOnlyAreRefused) {
@@ -236,7 +236,7 @@ class PiecesTest : public testing::Test {
   PiecesTest() {
     to[0].p.y() -= 0.1;
     to[2].p.z() += 0.1;
-    pieces = *FindMotionProof(MotionOf(from, to), 3, kHalfAngle);
+    pieces = *FindMotionProof(MotionOf(from, to), 3, kFrictionAngle);
   }
   [[nodiscard]] Kind Verdict(const Pieces& some) const {
     return CheckMotionProof(from, to, 3, kMu, some).kind;

@@ -14,7 +14,7 @@ namespace moving_forces_test {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfAngle = Radians(20);
+constexpr double kFrictionAngle = Radians(20);
 
 /// Tolerance of the balance for forces up to 1 with moment arms up to a few radii.
 constexpr double kRounding = 1e-11;
@@ -25,7 +25,7 @@ MovingContacts MovingContactsOf(const grasp::Grasp& from, const grasp::Grasp& to
   MovingContacts contacts;
   for (std::size_t i = 0; i < from.size(); ++i) {
     contacts.push_back({from[i].p - centre, to[i].p - centre, to[i].p - from[i].p, from[i].n,
-                        std::cos(kHalfAngle), std::sin(kHalfAngle)});
+                        std::cos(kFrictionAngle), std::sin(kFrictionAngle)});
   }
   return contacts;
 }
@@ -51,7 +51,7 @@ void ExpectBalancedInside(const MovingContacts& contacts, const MovingForces<kDe
       const Vector3d f = ForceAt<kDegree>(forces[i], t);
       force += f;
       torque += ((1 - t) * contacts[i].start + t * contacts[i].end).cross(f);
-      EXPECT_GT(f.dot(contacts[i].n), f.norm() * std::cos(kHalfAngle)) << t;
+      EXPECT_GT(f.dot(contacts[i].n), f.norm() * std::cos(kFrictionAngle)) << t;
     }
     EXPECT_LT(force.norm(), kRounding) << t;
     EXPECT_LT(torque.norm(), kRounding) << t;

@@ -79,28 +79,29 @@ class PathForceClosureIn : public testing::TestWithParam<int> {
  protected:
   int dimension() const { return GetParam(); }
   object::WrenchFrame frame() const { return FrameOf(dimension()); }
-  bool HoldsAt(const GraspMotion& motion, double t, double half_angle) const {
-    return grasp::IsForceClosure(GraspAt(motion, t), frame(), half_angle);
+  bool HoldsAt(const GraspMotion& motion, double t, double friction_angle) const {
+    return grasp::IsForceClosure(GraspAt(motion, t), frame(), friction_angle);
   }
 };
 
 /// Return true if a piece of a motion is proved, by a proof that exact arithmetic accepts.
-bool IsProved(const GraspMotion& motion, int dimension, double half_angle, double from, double to) {
-  const auto proof = FindSegmentProof(motion, dimension, half_angle, from, to);
+bool IsProved(const GraspMotion& motion, int dimension, double friction_angle, double from,
+              double to) {
+  const auto proof = FindSegmentProof(motion, dimension, friction_angle, from, to);
   if (!proof) return false;
   EXPECT_EQ(proof->from, from);
   EXPECT_EQ(proof->to, to);
   const grasp::Grasp start = GraspAt(motion, 0), end = GraspAt(motion, 1);
-  return CheckSegmentProof(start, end, dimension, std::tan(half_angle), *proof).proves();
+  return CheckSegmentProof(start, end, dimension, std::tan(friction_angle), *proof).proves();
 }
 
 /// Return the largest proved interval around the middle of a motion, with a resolution of 1/4000; 0
 /// if none.
-double LargestReach(const GraspMotion& motion, int dimension, double half_angle) {
+double LargestReach(const GraspMotion& motion, int dimension, double friction_angle) {
   double proved = 0, open = 0.5;
   for (int step = 0; step < 12; ++step) {
     const double reach = (proved + open) / 2;
-    const bool proof = IsProved(motion, dimension, half_angle, 0.5 - reach, 0.5 + reach);
+    const bool proof = IsProved(motion, dimension, friction_angle, 0.5 - reach, 0.5 + reach);
     (proof ? proved : open) = reach;
   }
   return proved;
@@ -112,15 +113,15 @@ TEST_P(PathForceClosureIn, ProvesOnlyWhatDenseSamplingConfirms) {
   for (int i = 0; i < 1000; ++i) {
     const GraspMotion motion = motions.Next(dimension() + i % 3);
     // Close to the limit, at which an incorrect proof would be detected.
-    const auto required = grasp::ComputeRequiredHalfAngle(GraspAt(motion, 0.5), frame(), 1e-6);
+    const auto required = grasp::ComputeRequiredFrictionAngle(GraspAt(motion, 0.5), frame(), 1e-6);
     if (!required) continue;
-    const double half_angle = required->upper + std::pow(10, motions.Uniform(-4, -0.5));
-    if (!(half_angle < Radians(85))) continue;
-    const double reach = LargestReach(motion, dimension(), half_angle);
+    const double friction_angle = required->upper + std::pow(10, motions.Uniform(-4, -0.5));
+    if (!(friction_angle < Radians(85))) continue;
+    const double reach = LargestReach(motion, dimension(), friction_angle);
     if (!(reach > 0)) continue;
     ++proved;
     for (int k = -5; k <= 5; ++k) {
-      EXPECT_TRUE(HoldsAt(motion, 0.5 + reach * k / 5, half_angle)) << i << " at " << k;
+      EXPECT_TRUE(HoldsAt(motion, 0.5 + reach * k / 5, friction_angle)) << i << " at " << k;
       ++samples;
     }
   }
@@ -133,17 +134,17 @@ TEST_P(PathForceClosureIn, AgreesWithDenseSampling) {
   int held = 0, lost = 0, undecided = 0;
   for (int i = 0; i < 400; ++i) {
     const GraspMotion motion = motions.Next(dimension() + 1 + i % 2);
-    const double half_angle = Radians(motions.Uniform(15, 70));
-    const PathForceClosure path = DecidePathForceClosure(motion, frame(), half_angle);
+    const double friction_angle = Radians(motions.Uniform(15, 70));
+    const PathForceClosure path = DecidePathForceClosure(motion, frame(), friction_angle);
     undecided += path.undecided;
     if (path.holds()) {
       ++held;
       for (int k = 0; k <= 200; ++k) {
-        EXPECT_TRUE(HoldsAt(motion, k / 200.0, half_angle)) << i << " at " << k;
+        EXPECT_TRUE(HoldsAt(motion, k / 200.0, friction_angle)) << i << " at " << k;
       }
     } else {
       ++lost;
-      EXPECT_FALSE(HoldsAt(motion, path.at, half_angle)) << i;
+      EXPECT_FALSE(HoldsAt(motion, path.at, friction_angle)) << i;
     }
   }
   EXPECT_GT(held, 40);
@@ -151,16 +152,17 @@ TEST_P(PathForceClosureIn, AgreesWithDenseSampling) {
   EXPECT_EQ(undecided, 0);
 }
 
-TEST_P(PathForceClosureIn, BoundsTheRequiredHalfAngleOfTheWholeWay) {
+TEST_P(PathForceClosureIn, BoundsTheRequiredFrictionAngleOfTheWholeWay) {
   RandomMotions motions(dimension());
   int checked = 0;
   for (int i = 0; i < 60; ++i) {
     const GraspMotion motion = motions.Next(dimension() + 2);
-    const auto bounds = ComputePathRequiredHalfAngle(motion, frame(), std::nullopt);
+    const auto bounds = ComputePathRequiredFrictionAngle(motion, frame(), std::nullopt);
     double largest = 0;
     bool none = false;
     for (int k = 0; k <= 100; ++k) {
-      const auto there = grasp::ComputeRequiredHalfAngle(GraspAt(motion, k / 100.0), frame(), 1e-7);
+      const auto there =
+          grasp::ComputeRequiredFrictionAngle(GraspAt(motion, k / 100.0), frame(), 1e-7);
       none = none || !there;
       if (there) largest = std::max(largest, there->lower);
     }
@@ -190,7 +192,7 @@ Accuracy CountAccurate(RandomMotions motions, int contacts, const object::Wrench
   Accuracy count;
   for (int i = 0; i < 60; ++i) {
     const GraspMotion motion = motions.Next(contacts);
-    const auto bounds = ComputePathRequiredHalfAngle(motion, frame, std::nullopt);
+    const auto bounds = ComputePathRequiredFrictionAngle(motion, frame, std::nullopt);
     if (!bounds) continue;
     ++count.bounded;
     if (bounds->upper - bounds->lower <= 1.1 * kPathAngleAccuracy) ++count.accurate;
@@ -221,7 +223,7 @@ TEST(PathForceClosure, BoundsAnAlignThatWeakerProofsBoundByTheFrictionItWasPlann
       {contact(-0.0152, 0.03, -0.014, -y), contact(0.0003, 0.03, -0.0229, -y)},
       {third, third},
       {fourth, fourth}};
-  const auto bounds = ComputePathRequiredHalfAngle(motion, FrameOf(3), Radians(25));
+  const auto bounds = ComputePathRequiredFrictionAngle(motion, FrameOf(3), Radians(25));
   ASSERT_TRUE(bounds);
   EXPECT_GT(bounds->lower, Radians(0.1));
   EXPECT_LT(bounds->upper - bounds->lower, Radians(0.1));
@@ -235,7 +237,7 @@ struct Peak {
 
 std::optional<Peak> FindInnerPeak(const GraspMotion& motion, const object::WrenchFrame& frame) {
   const auto angle_at = [&](double t) {
-    const auto required = grasp::ComputeRequiredHalfAngle(GraspAt(motion, t), frame, 1e-12);
+    const auto required = grasp::ComputeRequiredFrictionAngle(GraspAt(motion, t), frame, 1e-12);
     return required ? required->upper : 2.0;
   };
   constexpr int kSamples = 24;
@@ -270,18 +272,18 @@ TEST_P(PathForceClosureIn, CatchesForceClosureLostForATenThousandthOfTheWay) {
     if (!peak) continue;
     // Friction slightly too low at 5e-5 on either side of the peak.
     const auto before =
-        grasp::ComputeRequiredHalfAngle(GraspAt(motion, peak->at - 5e-5), frame(), 1e-12);
+        grasp::ComputeRequiredFrictionAngle(GraspAt(motion, peak->at - 5e-5), frame(), 1e-12);
     const auto after =
-        grasp::ComputeRequiredHalfAngle(GraspAt(motion, peak->at + 5e-5), frame(), 1e-12);
+        grasp::ComputeRequiredFrictionAngle(GraspAt(motion, peak->at + 5e-5), frame(), 1e-12);
     if (!before || !after) continue;
-    const double half_angle = std::max(before->upper, after->upper) + 1e-11;
-    if (!(half_angle < peak->angle - 1e-9)) continue;
+    const double friction_angle = std::max(before->upper, after->upper) + 1e-11;
+    if (!(friction_angle < peak->angle - 1e-9)) continue;
     ++narrow;
-    EXPECT_TRUE(HoldsAt(motion, 0, half_angle));
-    EXPECT_TRUE(HoldsAt(motion, peak->at - 6e-5, half_angle));
-    EXPECT_TRUE(HoldsAt(motion, peak->at + 6e-5, half_angle));
-    EXPECT_TRUE(HoldsAt(motion, 1, half_angle));
-    const PathForceClosure path = DecidePathForceClosure(motion, frame(), half_angle);
+    EXPECT_TRUE(HoldsAt(motion, 0, friction_angle));
+    EXPECT_TRUE(HoldsAt(motion, peak->at - 6e-5, friction_angle));
+    EXPECT_TRUE(HoldsAt(motion, peak->at + 6e-5, friction_angle));
+    EXPECT_TRUE(HoldsAt(motion, 1, friction_angle));
+    const PathForceClosure path = DecidePathForceClosure(motion, frame(), friction_angle);
     EXPECT_EQ(path.decision, grasp::Decision::kNo) << i;
     EXPECT_NEAR(path.at, peak->at, 6e-5);
     if (DecidePathForceClosure(motion, frame(), peak->angle + kPathAngleAccuracy).holds()) ++held;
@@ -345,10 +347,10 @@ TEST(PathForceClosure, EndsWhereTheBudgetOfAllMotionsIsSpent) {
   EXPECT_EQ(ended.decision, grasp::Decision::kTooClose);
   EXPECT_TRUE(ended.ended_early);
   EXPECT_EQ(ended.undecided, 0);
-  const auto bounds = ComputePathRequiredHalfAngle(motion, frame, Radians(50), shared);
+  const auto bounds = ComputePathRequiredFrictionAngle(motion, frame, Radians(50), shared);
   ASSERT_TRUE(bounds);
   EXPECT_EQ(bounds->upper, Radians(50));
-  EXPECT_FALSE(ComputePathRequiredHalfAngle(motion, frame, std::nullopt, shared));
+  EXPECT_FALSE(ComputePathRequiredFrictionAngle(motion, frame, std::nullopt, shared));
 }
 
 /// Motions of four contacts whose points and normals stay in one plane.
@@ -409,12 +411,12 @@ TEST(PathForceClosure, BoundsMotionsInOnePlaneAsNearAsOthers) {
       for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << static_cast<int>(family) << turned << i);
         const GraspMotion motion = motions.Next();
-        const auto bounds = ComputePathRequiredHalfAngle(motion, frame, std::nullopt);
+        const auto bounds = ComputePathRequiredFrictionAngle(motion, frame, std::nullopt);
         ASSERT_TRUE(bounds);
         double largest = 0;
         for (int k = 0; k <= 200; ++k) {
           const auto there =
-              grasp::ComputeRequiredHalfAngle(GraspAt(motion, k / 200.0), frame, 1e-7);
+              grasp::ComputeRequiredFrictionAngle(GraspAt(motion, k / 200.0), frame, 1e-7);
           ASSERT_TRUE(there);
           largest = std::max(largest, there->lower);
         }

@@ -18,7 +18,7 @@ namespace soft_motion_test {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfAngle = Radians(25);
+constexpr double kFrictionAngle = Radians(25);
 
 /// Return contacts on the faces x = ±1 of a cube.
 grasp::Grasp Pair(const Vector3d& left, const Vector3d& right, double torsion) {
@@ -40,7 +40,7 @@ struct Slide {
         motion(Between(from, to)) {}
 
   [[nodiscard]] ProofVerdict Check(const MotionSegments& pieces) const {
-    return CheckMotionProof(from, to, 3, std::tan(kHalfAngle), pieces);
+    return CheckMotionProof(from, to, 3, std::tan(kFrictionAngle), pieces);
   }
 
   grasp::Grasp from;
@@ -51,23 +51,23 @@ struct Slide {
 TEST(SoftMotionTest, APairThatSlidesIsProvedAndOfHardPointsNothingIs) {
   for (const double torsion : {0.01, 0.2, 5.0}) {
     const Slide soft(torsion);
-    const auto proof = FindMotionProof(soft.motion, 3, kHalfAngle);
+    const auto proof = FindMotionProof(soft.motion, 3, kFrictionAngle);
     ASSERT_TRUE(proof) << torsion;
     const ProofVerdict verdict = soft.Check(*proof);
     EXPECT_TRUE(verdict.proves()) << verdict.why;
-    EXPECT_TRUE(DecidePathForceClosure(soft.motion, UnitFrame(3), kHalfAngle).holds());
+    EXPECT_TRUE(DecidePathForceClosure(soft.motion, UnitFrame(3), kFrictionAngle).holds());
   }
   const Slide hard(0);
-  EXPECT_FALSE(FindMotionProof(hard.motion, 3, kHalfAngle));
-  EXPECT_EQ(DecidePathForceClosure(hard.motion, UnitFrame(3), kHalfAngle).decision,
+  EXPECT_FALSE(FindMotionProof(hard.motion, 3, kFrictionAngle));
+  EXPECT_EQ(DecidePathForceClosure(hard.motion, UnitFrame(3), kFrictionAngle).decision,
             grasp::Decision::kNo);
 }
 
-TEST(SoftMotionTest, ItsRequiredHalfAngleIsTheLargestOffset) {
+TEST(SoftMotionTest, ItsRequiredFrictionAngleIsTheLargestOffset) {
   // For opposite normals the required angle is that between them and the line of the contacts. It
   // is largest at an end, because the offset of the contacts is convex in t.
   const Slide slide(0.2);
-  const auto required = ComputePathRequiredHalfAngle(slide.motion, UnitFrame(3), std::nullopt);
+  const auto required = ComputePathRequiredFrictionAngle(slide.motion, UnitFrame(3), std::nullopt);
   ASSERT_TRUE(required);
   EXPECT_NEAR(required->lower, std::atan(std::hypot(0.2, 0.1) / 2), 1e-5);
   EXPECT_LE(required->upper, required->lower + 2 * kPathAngleAccuracy);
@@ -75,7 +75,7 @@ TEST(SoftMotionTest, ItsRequiredHalfAngleIsTheLargestOffset) {
 
 TEST(SoftMotionTest, AProofThatIsChangedIsNone) {
   const Slide slide(0.2);
-  const auto proof = FindMotionProof(slide.motion, 3, kHalfAngle);
+  const auto proof = FindMotionProof(slide.motion, 3, kFrictionAngle);
   ASSERT_TRUE(proof);
   ASSERT_TRUE(slide.Check(*proof).proves());
   const auto expect_nothing = [&](auto change) {
@@ -94,7 +94,7 @@ TEST(SoftMotionTest, AProofThatIsChangedIsNone) {
   // The same forces with hard contacts.
   grasp::Grasp from = slide.from, to = slide.to;
   for (grasp::Contact& contact : from) contact.torsion = 0;
-  EXPECT_FALSE(CheckMotionProof(from, to, 3, std::tan(kHalfAngle), *proof).proves());
+  EXPECT_FALSE(CheckMotionProof(from, to, 3, std::tan(kFrictionAngle), *proof).proves());
   // With less friction than was proved, the offset of 0.2 requires 5.7°.
   EXPECT_FALSE(CheckMotionProof(slide.from, slide.to, 3, std::tan(Radians(5)), *proof).proves());
 }
@@ -102,13 +102,13 @@ TEST(SoftMotionTest, AProofThatIsChangedIsNone) {
 TEST(SoftMotionTest, TorquesBeyondTheTorsionProveNothing) {
   // Two torques of opposite normals balance, regardless of their size.
   const Slide slide(0.2);
-  const auto proof = FindMotionProof(slide.motion, 3, kHalfAngle);
+  const auto proof = FindMotionProof(slide.motion, 3, kFrictionAngle);
   ASSERT_TRUE(proof);
   const auto with_torque = [&](double share) {
     MotionSegments changed = *proof;
     for (MotionSegment& piece : changed) {
       for (std::size_t i = 0; i < 2; ++i) {
-        const double most = std::tan(kHalfAngle) * 0.2;
+        const double most = std::tan(kFrictionAngle) * 0.2;
         piece.start_torques[i] = share * most * std::abs(piece.start[i].x());
         piece.end_torques[i] = share * most * std::abs(piece.end[i].x());
       }
@@ -126,9 +126,10 @@ TEST(SoftMotionTest, AFingerWhoseNormalTurnsIsAHardPoint) {
   to[0].n = Vector3d(std::cos(0.1), std::sin(0.1), 0);
   // The other finger alone resists rotations about the line.
   const GraspMotion one = Between(from, to);
-  EXPECT_TRUE(DecidePathForceClosure(one, UnitFrame(3), kHalfAngle).holds());
+  EXPECT_TRUE(DecidePathForceClosure(one, UnitFrame(3), kFrictionAngle).holds());
   to[1].n = Vector3d(-std::cos(0.1), 0, std::sin(0.1));
-  const PathForceClosure both = DecidePathForceClosure(Between(from, to), UnitFrame(3), kHalfAngle);
+  const PathForceClosure both =
+      DecidePathForceClosure(Between(from, to), UnitFrame(3), kFrictionAngle);
   EXPECT_EQ(both.decision, grasp::Decision::kTooClose);
   EXPECT_TRUE(both.ended_early);
 }
@@ -145,22 +146,22 @@ TEST(SoftMotionTest, WhatIsSaidToHoldHoldsAtEveryInstantAndMoreTorsionKeepsIt) {
       from[i].torsion = to[i].torsion = torsion;
       to[i].p += 0.3 * random.Direction(3).cwiseProduct(Vector3d::Ones() - from[i].n.cwiseAbs());
     }
-    const double half_angle = Radians(random.Uniform(10, 50));
+    const double friction_angle = Radians(random.Uniform(10, 50));
     const GraspMotion motion = Between(from, to);
-    const PathForceClosure path = DecidePathForceClosure(motion, UnitFrame(3), half_angle);
+    const PathForceClosure path = DecidePathForceClosure(motion, UnitFrame(3), friction_angle);
     if (path.decision == grasp::Decision::kNo) {
-      EXPECT_FALSE(grasp::IsForceClosure(GraspAt(motion, path.at), UnitFrame(3), half_angle));
+      EXPECT_FALSE(grasp::IsForceClosure(GraspAt(motion, path.at), UnitFrame(3), friction_angle));
       ++refuted;
     }
     if (!path.holds()) continue;
     ++proved;
     for (int k = 0; k <= 40; ++k) {
-      EXPECT_TRUE(grasp::IsForceClosure(GraspAt(motion, k / 40.0), UnitFrame(3), half_angle));
+      EXPECT_TRUE(grasp::IsForceClosure(GraspAt(motion, k / 40.0), UnitFrame(3), friction_angle));
     }
     for (std::size_t i = 0; i < from.size(); ++i) from[i].torsion = to[i].torsion = 2 * torsion;
-    EXPECT_TRUE(DecidePathForceClosure(Between(from, to), UnitFrame(3), half_angle).holds());
+    EXPECT_TRUE(DecidePathForceClosure(Between(from, to), UnitFrame(3), friction_angle).holds());
     for (std::size_t i = 0; i < from.size(); ++i) from[i].torsion = to[i].torsion = 0;
-    if (!DecidePathForceClosure(Between(from, to), UnitFrame(3), half_angle).holds()) ++helped;
+    if (!DecidePathForceClosure(Between(from, to), UnitFrame(3), friction_angle).holds()) ++helped;
   }
   EXPECT_GT(proved, 40);
   EXPECT_GT(refuted, 40);

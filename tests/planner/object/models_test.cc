@@ -12,7 +12,7 @@
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/project_path.h"
@@ -177,18 +177,18 @@ TEST(Models, GraspsLieInsideFacesWithTheirNormals) {
 }
 
 TEST(Models, GraspsAreForceClosureAtTwentyDegreesWithAClearMargin) {
-  constexpr double kHalfAngle = Radians(20);
+  constexpr double kFrictionAngle = Radians(20);
   for (const Model& model : kModels) {
     const ObjectFile file = ReadObject(ModelPath(model.file));
     const WrenchFrame frame = file.object->wrench_frame();
     for (const std::string which : {"start", "goal"}) {
       SCOPED_TRACE(model.file + " " + which);
       const grasp::Grasp grasp = ReadModelGrasp(model, *file.object, which);
-      EXPECT_TRUE(grasp::IsForceClosure(grasp, frame, kHalfAngle));
-      const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame);
+      EXPECT_TRUE(grasp::IsForceClosure(grasp, frame, kFrictionAngle));
+      const auto required = grasp::ComputeRequiredFrictionAngle(grasp, frame);
       ASSERT_TRUE(required.has_value());
       EXPECT_LE(Degrees(required->upper), 15);
-      EXPECT_GE(grasp::ComputeQuality(grasp, frame, kHalfAngle).lower, 0.02);
+      EXPECT_GE(grasp::ComputeQuality(grasp, frame, kFrictionAngle).lower, 0.02);
     }
   }
 }

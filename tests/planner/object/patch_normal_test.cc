@@ -200,21 +200,21 @@ TEST(RoughPlaces, MoveAndScaleWithTheObject) {
             RoughCentroids(Felt(RoughSphere(), std::nullopt, 5)));
 }
 
-TEST(InventedFaces, TakeFingersOnlyWhereThatIsAllowed) {
+TEST(FilledFaces, TakeFingersOnlyWhereThatIsAllowed) {
   PolygonSoup cube = UnitCubeSoup();
-  cube.invented.assign(cube.facets.size(), false);
-  cube.invented[2] = true;
+  cube.filled.assign(cube.facets.size(), false);
+  cube.filled[2] = true;
   Reading allowing;
-  allowing.allow_invented = true;
+  allowing.allow_filled = true;
   const Polyhedron strict = Solid(cube);
   const Polyhedron lenient = Polyhedron::FromSoup(cube, "soup", allowing);
-  int invented = 0;
+  int filled = 0;
   for (FaceIndex f{0}; f < strict.face_count(); ++f) {
-    EXPECT_EQ(strict.TakesFingers(f), !strict.IsInvented(f));
+    EXPECT_EQ(strict.TakesFingers(f), !strict.IsFilled(f));
     EXPECT_TRUE(lenient.TakesFingers(f));
-    invented += lenient.IsInvented(f);
+    filled += lenient.IsFilled(f);
   }
-  EXPECT_EQ(invented, 1);
+  EXPECT_EQ(filled, 1);
 }
 
 }  // namespace patch_normal_test

@@ -54,7 +54,7 @@ TEST(CheckAlign, DoesNotBeginBeyondASlit) {
   const object::Polyhedron block =
       MakePrism({{0, 0}, {1, 0}, {1, 1}, {1 + width, 1}, {1 + width, 0}, {3, 0}, {3, 2}, {0, 2}});
   Plan plan = SlideOnTop({1.5, 1.5}, {1 + width, 0.5, 1}, {2, 0.5, 1});
-  plan.half_angle = Radians(60);
+  plan.friction_angle = Radians(60);
   EXPECT_EQ(ReasonOf(block, plan), Reason::kNone);
   plan.initial[1].contact.p.x() = 1;
   EXPECT_EQ(ReasonOf(block, plan), Reason::kDiscontinuous);
@@ -134,8 +134,8 @@ TEST(CheckAlign, GoesOverFromAnEdgeToACollinearOneAtTheirVertex) {
   for (const double sign : {1.0, -1.0}) {
     const auto over = AlignPlan(plan, {grasp(-0.3 * sign), grasp(0), grasp(0), grasp(0.3 * sign)});
     EXPECT_EQ(ReasonOf(square, over), Reason::kNone);
-    const Align located = std::get<Align>(LocatePlan(square, over).steps.front());
-    const auto face = [&](int waypoint) { return located.waypoints[waypoint][0].contact.face; };
+    const Align projected = std::get<Align>(ProjectPlan(square, over).steps.front());
+    const auto face = [&](int waypoint) { return projected.waypoints[waypoint][0].contact.face; };
     EXPECT_EQ(face(0), face(1));
     EXPECT_NE(face(1), face(2));
     EXPECT_EQ(face(2), face(3));
@@ -171,9 +171,9 @@ TEST(CheckAlign, FindsForceClosureLostOnlyOnTheWay) {
 TEST(CheckAlign, RefusesAMotionAtItsCriticalFriction) {
   const object::Polygon square = MakeSquare();
   Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
-  plan.half_angle = std::atan(0.25);
+  plan.friction_angle = std::atan(0.25);
   EXPECT_FALSE(CheckPlan(square, plan).passed());
-  plan.half_angle += 1e-8;
+  plan.friction_angle += 1e-8;
   EXPECT_TRUE(CheckPlan(square, plan).passed());
 }
 
@@ -247,7 +247,7 @@ struct TurnAndSlide {
     };
     plan = AlignPlan(EmptyPlan(2, fingers, 20),
                      {grasp({std::cos(kTurn), -std::sin(kTurn), 0}, 0), grasp({1, 0, 0}, kTurn)});
-    plan.half_angle = kTurn + above;
+    plan.friction_angle = kTurn + above;
   }
 };
 
@@ -288,12 +288,12 @@ TEST(CheckAlign, JudgesTheWayAtTheFrictionOfTheOptions) {
       AlignPlan(EmptyPlan(2, 4, 60), {Pair(-0.9, -0.9), Pair(0.9, -0.9), Pair(0.9, 0.9)});
   const object::Polygon square = MakeSquare();
   EXPECT_TRUE(CheckPlan(square, plan).passed());
-  const StepCheck less = CheckPlan(square, plan, {.half_angle = Radians(40)}).steps[1];
+  const StepCheck less = CheckPlan(square, plan, {.friction_angle = Radians(40)}).steps[1];
   EXPECT_EQ(less.reason, Reason::kNotForceClosure);
   Plan weak = plan;
-  weak.half_angle = Radians(20);
+  weak.friction_angle = Radians(20);
   EXPECT_FALSE(CheckPlan(square, weak).passed());
-  EXPECT_TRUE(CheckPlan(square, weak, {.half_angle = Radians(43)}).passed());
+  EXPECT_TRUE(CheckPlan(square, weak, {.friction_angle = Radians(43)}).passed());
 }
 
 TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
@@ -302,14 +302,14 @@ TEST(CheckAlign, PassesOnlyWithARequiredHalfAngleWithinTheFriction) {
   int passed = 0;
   for (const double above : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3}) {
     Plan plan = AlignPlan(EmptyPlan(2, 4, 20), {Pair(-0.8, -0.3), Pair(-0.3, 0.2)});
-    plan.half_angle = std::atan(0.25) + above;
+    plan.friction_angle = std::atan(0.25) + above;
     const PlanCheck check = CheckPlan(square, plan);
     if (!check.passed()) continue;
     ++passed;
     for (const StepCheck& step : check.steps) {
       ASSERT_TRUE(step.required);
       EXPECT_LE(step.required->lower, step.required->upper);
-      EXPECT_LE(step.required->upper, plan.half_angle);
+      EXPECT_LE(step.required->upper, plan.friction_angle);
     }
   }
   EXPECT_GE(passed, 4);

@@ -18,7 +18,7 @@ TEST(CheckPlan, LosesForceClosureExactlyWhereTwoFingersDo) {
   // Two opposite fingers with a lateral offset s hold a square of side 2 iff s/2 < tan θ.
   const object::Polygon square = MakeSquare();
   Plan plan = EmptyPlan(2, 4, 20);
-  const double limit = 2 * std::tan(plan.half_angle);
+  const double limit = 2 * std::tan(plan.friction_angle);
   for (const double share : {1 - 1e-6, 1 + 1e-6}) {
     plan.initial = {{FingerIndex(0), {{0.3, -1, 0}, {0, 1, 0}}},
                     {FingerIndex(1), {{0.3 - share * limit, 1, 0}, {0, -1, 0}}}};
@@ -112,13 +112,13 @@ TEST(CheckPlan, AGraspThatPassesNeedsNoMoreThanTheFriction) {
     // Middle of the bounds, at which the grasp may be force closure without a proof so far.
     const auto bounds = CheckPlan(square, plan).steps[0].required;
     ASSERT_TRUE(bounds);
-    plan.half_angle = bounds->lower + (bounds->upper - bounds->lower) / 2;
+    plan.friction_angle = bounds->lower + (bounds->upper - bounds->lower) / 2;
     const StepCheck hold = CheckPlan(square, plan).steps[0];
     if (hold.reason != Reason::kNone) continue;
     ++passed;
     ASSERT_TRUE(hold.required);
     EXPECT_LE(hold.required->lower, hold.required->upper);
-    EXPECT_LE(hold.required->upper, plan.half_angle);
+    EXPECT_LE(hold.required->upper, plan.friction_angle);
   }
   EXPECT_GE(passed, 5);
 }
@@ -137,7 +137,7 @@ struct Strip {
   }
   static Plan HoldPlan(double apart) {
     Plan plan = EmptyPlan(2, 4, 20);
-    plan.half_angle = Radians(90) - kHeight / 2;
+    plan.friction_angle = Radians(90) - kHeight / 2;
     plan.initial = Held(apart);
     plan.goal = ContactsOf(plan.initial);
     return plan;
@@ -168,10 +168,10 @@ TEST(CheckPlan, FailsWhereFrictionIsBelowWhatThePlanRequires) {
     ASSERT_TRUE(step.required);
     EXPECT_LE(step.required->lower, step.required->upper);
     CheckOptions options;
-    options.half_angle = step.required->upper + 1e-6;
+    options.friction_angle = step.required->upper + 1e-6;
     EXPECT_TRUE(CheckPlan(cube, plan, options).steps[step.index].force_closure ||
                 CheckPlan(cube, plan, options).steps[step.index].skipped);
-    options.half_angle = step.required->lower - 1e-6;
+    options.friction_angle = step.required->lower - 1e-6;
     EXPECT_FALSE(CheckPlan(cube, plan, options).passed());
     ++checked;
   }

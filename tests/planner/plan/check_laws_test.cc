@@ -20,7 +20,7 @@ std::vector<Plan> Plans() {
   std::get<Switch>(plans[2].steps[1]).release = {FingerIndex(0)};
   std::get<Align>(plans[3].steps[2]).waypoints[1][0].contact.p = {1, 0.95, 0.95};
   std::get<Align>(plans[3].steps[2]).waypoints[1][1].contact.p = {-1, -0.95, -0.95};
-  plans[4].half_angle = Radians(1);
+  plans[4].friction_angle = Radians(1);
   plans[5].goal.pop_back();
   return plans;
 }
@@ -132,7 +132,7 @@ TEST(CheckLaws, MoreFrictionNeverTurnsPassIntoFail) {
     bool passed = false;
     for (int degrees = 2; degrees < 90; degrees += 4) {
       CheckOptions options;
-      options.half_angle = Radians(degrees);
+      options.friction_angle = Radians(degrees);
       const bool passes = CheckPlan(cube, plan, options).passed();
       EXPECT_FALSE(passed && !passes) << degrees;
       if (passes != passed) ++changes;

@@ -157,7 +157,7 @@ TEST(CheckPlan, APlanAtGivenPointsHasItsContactsThere) {
   points.back() += off * Eigen::Vector3d::UnitX();
   const PlanCheck failed = CheckPlan(cube, plan, {.given_points = &points});
   ExpectFails(failed, 1, Reason::kOffPoint, "a placed contact elsewhere");
-  EXPECT_NEAR(FarthestFromPoints(failed.located, points), off, 1e-12);
+  EXPECT_NEAR(FarthestFromPoints(failed.projected, points), off, 1e-12);
   points.front() += off * Eigen::Vector3d::UnitY();
   ExpectFails(CheckPlan(cube, plan, {.given_points = &points}), 0, Reason::kOffPoint,
               "an initial contact elsewhere");
@@ -429,10 +429,10 @@ TEST(CheckPlan, ProjectsContactsOntoTheirFaces) {
   plan.initial[0].contact.p.x() += 1e-7;
   plan.initial[1].contact.p.x() -= 1;
   const PlanCheck check = CheckPlan(MakeCube(), plan);
-  EXPECT_EQ(check.located.initial[0].contact.p.x(), 1);
-  EXPECT_GE(check.located.initial[0].contact.face, 0);
-  EXPECT_EQ(check.located.initial[1].contact.face, -1);
-  EXPECT_EQ(check.located.initial[1].contact.p, plan.initial[1].contact.p);
+  EXPECT_EQ(check.projected.initial[0].contact.p.x(), 1);
+  EXPECT_GE(check.projected.initial[0].contact.face, 0);
+  EXPECT_EQ(check.projected.initial[1].contact.face, -1);
+  EXPECT_EQ(check.projected.initial[1].contact.p, plan.initial[1].contact.p);
 }
 
 }  // namespace check_test

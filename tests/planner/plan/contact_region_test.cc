@@ -87,7 +87,7 @@ TEST(ContactRegion, CrossesVerticesAndTheRingsFirstOne) {
               2 * kRegionAccuracy * strip.diameter());
 }
 
-TEST(ContactRegion, OfADiscIsAboutTheHalfAngleTimesTheRadius) {
+TEST(ContactRegion, OfADiscIsAboutTheFrictionAngleTimesTheRadius) {
   constexpr int kEdges = 120;
   const object::Polygon disc = MakeDisc(kEdges, 2);
   for (const double degrees : {10.0, 15.0, 20.0}) {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "planner/base/number.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check.h"
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"
@@ -32,7 +32,7 @@ double Distance(const Fault& fault) { return (fault.found->p - fault.expected.at
 TEST(Fault, OfAPlanThatPassesIsEmpty) {
   for (const StepCheck& step : CheckPlan(MakeCube(), CubePlan()).steps) {
     EXPECT_TRUE(step.fault.fingers.empty());
-    EXPECT_FALSE(step.fault.found || step.fault.required || step.fault.push);
+    EXPECT_FALSE(step.fault.found || step.fault.required || step.fault.disturbance);
     EXPECT_TRUE(step.fault.expected.empty() && step.fault.grasp.empty());
   }
 }
@@ -120,7 +120,7 @@ TEST(Fault, OfALossOfForceClosureHasTheGraspAndBothAngles) {
     Waypoints(plan)[1][1].contact.p = {-1, -0.95, -0.95};
   });
   EXPECT_EQ(step.reason, Reason::kNotForceClosure);
-  EXPECT_EQ(step.fault.half_angle, Radians(30));
+  EXPECT_EQ(step.fault.friction_angle, Radians(30));
   ASSERT_TRUE(step.fault.required.has_value());
   EXPECT_GT(*step.fault.required, Radians(30));
   EXPECT_EQ(step.fault.grasp.size(), 4u);

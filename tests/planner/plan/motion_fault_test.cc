@@ -6,7 +6,7 @@
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
 #include "planner/plan/check_step.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 
 /// Return the contact that a file with these values defines.
 grasp::Contact At(const object::Object& object, const Vector3d& p, const Vector3d& n) {
-  const LocatedContact located = LocateContact(object, {p, n.normalized()});
-  EXPECT_EQ(located.reason, Reason::kNone) << located.detail;
-  return located.contact;
+  const ProjectedContact projected = ProjectContact(object, {p, n.normalized()});
+  EXPECT_EQ(projected.reason, Reason::kNone) << projected.detail;
+  return projected.contact;
 }
 
 bool MayMove(const object::Object& object, const grasp::Contact& from, const grasp::Contact& to) {

@@ -50,7 +50,7 @@ void ExpectSamePlan(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.object_sha256, b.object_sha256);
   EXPECT_EQ(a.scale, b.scale);
   EXPECT_EQ(a.dimension, b.dimension);
-  EXPECT_EQ(a.half_angle, b.half_angle);
+  EXPECT_EQ(a.friction_angle, b.friction_angle);
   EXPECT_EQ(a.fingers, b.fingers);
   EXPECT_EQ(a.planner, b.planner);
   EXPECT_EQ(a.finger_radius, b.finger_radius);
@@ -194,11 +194,11 @@ TEST(PlanIo, KeepsWhereClusteredContactsAre) {
   const Json plain = Json::parse(FormatPlan(plan))["roadmap"];
   EXPECT_FALSE(plain.contains("roughness_deg") || plain.contains("invented"));
   plan.roadmap->roughness = Radians(5);
-  plan.roadmap->allow_invented = true;
+  plan.roadmap->allow_filled = true;
   const std::string text = FormatPlan(plan);
   const Plan read = ParsePlan(text, "plan.json");
   EXPECT_EQ(read.roadmap->roughness, plan.roadmap->roughness);
-  EXPECT_TRUE(read.roadmap->allow_invented);
+  EXPECT_TRUE(read.roadmap->allow_filled);
   EXPECT_EQ(FormatPlan(read), text);
   EXPECT_EQ(Json::parse(text)["roadmap"]["roughness_deg"], 5);
 }
@@ -214,7 +214,7 @@ TEST(PlanIo, KeepsThatContactsAreAtGivenPointsOfASurface) {
             "plan.json: /contacts: cannot be used with a planar object");
 }
 
-TEST(PlanIo, WritesRoundHalfAnglesRound) {
+TEST(PlanIo, WritesRoundFrictionAnglesRound) {
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 20)).find("\"half_angle_deg\": 20.0"), std::string::npos);
   EXPECT_NE(FormatPlan(EmptyPlan(3, 5, 33.3)).find("\"half_angle_deg\": 33.3"), std::string::npos);
 }

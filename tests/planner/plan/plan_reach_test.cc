@@ -124,7 +124,7 @@ TEST(PlanReach, AFingerTurnsFreelyAroundAConvexEdge) {
 TEST(PlanReach, NamesTheFirstEntryOfASequence) {
   const object::Polyhedron cube = MakeCube();
   Plan plan = CubePlan();
-  plan = CheckPlan(cube, plan).located;
+  plan = CheckPlan(cube, plan).projected;
   EXPECT_FALSE(FindPlanObstacle(cube, plan.initial, plan.steps, 0.05).has_value());
   plan.steps.insert(plan.steps.begin(),
                     Switch{{{FingerIndex(4),
@@ -150,7 +150,7 @@ TEST(PlanReach, TheCheckReportsUnreachableAfterForceClosure) {
   plan.finger_radius = 3.0;
   EXPECT_FALSE(CheckPlan(cube, plan).passed());
   EXPECT_TRUE(CheckPlan(cube, plan, {.finger_radius = 0.01}).passed());
-  plan.half_angle *= 0.1;
+  plan.friction_angle *= 0.1;
   EXPECT_EQ(CheckPlan(cube, plan).steps[0].reason, Reason::kNotForceClosure);
 }
 

@@ -20,20 +20,20 @@ FingerGrasp Held(const grasp::Grasp& grasp) {
 
 TEST(RestClosureTest, SaysOfEveryGraspWhatIsFoundOfItAlone) {
   RandomGrasps random(8);
-  const double half_angle = Radians(30);
+  const double friction_angle = Radians(30);
   const object::WrenchFrame frame = UnitFrame(3);
-  RestClosure rests(frame, half_angle);
+  StaticGraspClosure rests(frame, friction_angle);
   int holds = 0, fails = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const grasp::Grasp grasp = random.OnBall(4, 3);
-    const auto required = grasp::ComputeRequiredHalfAngle(grasp, frame);
-    const bool expected = grasp::IsForceClosure(grasp, frame, half_angle);
+    const auto required = grasp::ComputeRequiredFrictionAngle(grasp, frame);
+    const bool expected = grasp::IsForceClosure(grasp, frame, friction_angle);
     for (int again = 0; again < 2; ++again) {
-      const RestClosure::Found& found = rests.Of(Held(grasp));
+      const StaticGraspClosure::Found& found = rests.Of(Held(grasp));
       EXPECT_EQ(found.holds, expected);
       ASSERT_EQ(found.required.has_value(), required.has_value());
       if (!required) continue;
-      const double upper = expected ? std::min(required->upper, half_angle) : required->upper;
+      const double upper = expected ? std::min(required->upper, friction_angle) : required->upper;
       EXPECT_EQ(found.required->upper, upper);
     }
     ++(expected ? holds : fails);
@@ -44,7 +44,7 @@ TEST(RestClosureTest, SaysOfEveryGraspWhatIsFoundOfItAlone) {
 
 TEST(RestClosureTest, OneWithoutContactsDoesNotHold) {
   RandomGrasps random(9);
-  RestClosure rests(UnitFrame(3), Radians(60));
+  StaticGraspClosure rests(UnitFrame(3), Radians(60));
   EXPECT_FALSE(rests.Of({}).holds);
   EXPECT_FALSE(rests.Of({}).required);
   EXPECT_TRUE(rests.Of(Held(random.OnBall(5, 3, 0))).required);

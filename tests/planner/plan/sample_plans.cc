@@ -19,13 +19,13 @@ grasp::Contact Moved(const grasp::Contact& contact, double x, double y, double z
 
 }  // namespace
 
-Plan EmptyPlan(int dimension, int fingers, double half_angle_deg) {
+Plan EmptyPlan(int dimension, int fingers, double friction_angle_deg) {
   Plan plan;
   plan.object_file = dimension == 2 ? "square.wkt" : "cube.obj";
   plan.object_sha256 = std::string(64, 'a');
   plan.scale = 0.05;
   plan.dimension = dimension;
-  plan.half_angle = Radians(half_angle_deg);
+  plan.friction_angle = Radians(friction_angle_deg);
   plan.fingers = fingers;
   plan.planner = "general";
   return plan;

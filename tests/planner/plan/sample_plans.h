@@ -18,6 +18,6 @@ Plan CubePlan();
 Plan SquarePlan();
 
 /// Return a plan with a sha256, a scale and other data, but without contacts and steps.
-Plan EmptyPlan(int dimension, int fingers, double half_angle_deg);
+Plan EmptyPlan(int dimension, int fingers, double friction_angle_deg);
 
 }  // namespace regrasp::plan

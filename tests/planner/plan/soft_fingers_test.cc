@@ -44,7 +44,7 @@ TEST(SoftFingersCheck, TwoOfThemHoldSlideAndTakeOver) {
   ExpectPasses(check, "soft");
   ASSERT_TRUE(check.steps[1].required);
   EXPECT_NEAR(check.steps[1].required->upper, std::atan(std::hypot(0.3, 0.2) / 2), 2e-4);
-  for (const grasp::Contact& contact : ContactsOf(check.located.initial)) {
+  for (const grasp::Contact& contact : ContactsOf(check.projected.initial)) {
     EXPECT_EQ(contact.torsion, 0.2);
   }
   ExpectFails(CheckPlan(cube, PairPlan(0)), 0, Reason::kNotForceClosure, "hard");
@@ -77,7 +77,7 @@ TEST(SoftFingersCheck, APlanOfHardPointsThatPassesDoesSoOfSoftFingersWithNoMoreF
 TEST(SoftFingersCheck, BelowTheRequiredFrictionNothingPasses) {
   const object::Polyhedron cube = MakeCube();
   CheckOptions options;
-  options.half_angle = std::atan(0.99 * std::hypot(0.3, 0.2) / 2);
+  options.friction_angle = std::atan(0.99 * std::hypot(0.3, 0.2) / 2);
   ExpectFails(CheckPlan(cube, PairPlan(0.2), options), 1, Reason::kNotForceClosure, "at the end");
 }
 
@@ -116,7 +116,7 @@ TEST(SoftFingersFile, KeepsTheTorsionAndTheTorquesOfCertificates) {
     from.torsion = to.torsion = plan.torsion;
     motion.emplace_back(from, to);
   }
-  const auto proof = motion::FindMotionProof(motion, 3, plan.half_angle);
+  const auto proof = motion::FindMotionProof(motion, 3, plan.friction_angle);
   ASSERT_TRUE(proof);
   align.certificate = {*proof};
   const std::string text = FormatPlan(plan);

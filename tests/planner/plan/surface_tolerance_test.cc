@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
@@ -16,7 +16,7 @@ constexpr double kHalf = 0.03;
 
 /// Return the reason why a point is not on the cube's face towards +x, selected by its normal.
 Reason ReasonOf(const object::Object& cube, const Eigen::Vector3d& point) {
-  return LocateContact(cube, {point, -Eigen::Vector3d::UnitX()}).reason;
+  return ProjectContact(cube, {point, -Eigen::Vector3d::UnitX()}).reason;
 }
 
 double InSinglePrecision(double value) {

@@ -7,7 +7,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/object/polygon.h"
 #include "planner/planning/candidate_sequence.h"
 #include "tests/fixtures/polygons.h"
@@ -78,7 +78,7 @@ TEST_F(RestSummary, TheSmallestMarginIsThatOfAllWhateverTheirOrder) {
       const double off = lean(engine) / 2;
       rests.push_back(At(0.5 - off, 0.5 + off));
       const auto required =
-          grasp::ComputeRequiredHalfAngle(rests.back().grasp, square_.wrench_frame());
+          grasp::ComputeRequiredFrictionAngle(rests.back().grasp, square_.wrench_frame());
       smallest = std::min(smallest, Radians(30) - required.value().upper);
     }
     EXPECT_EQ(SmallestMargin(rests, evaluator_), smallest);

@@ -126,7 +126,7 @@ TEST(Solve, RefusesFrictionAndQualityOutOfRange) {
 
 TEST(Solve, AcceptsAForceClosureGraspOfFour) { EXPECT_NO_THROW(Check(OppositePairs(0), 10)); }
 
-TEST(Solve, NamesTheHalfAngleThatIsNeeded) {
+TEST(Solve, NamesTheFrictionAngleThatIsNeeded) {
   // The lines of the pairs are inclined by atan(0.02 / 0.06) = 18.43°, which is the required
   // friction angle.
   EXPECT_THAT([] { Check(OppositePairs(0.02), 15); },

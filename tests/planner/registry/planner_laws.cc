@@ -8,7 +8,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "planner/roadmap/roadmap_parameters.h"
@@ -88,7 +88,7 @@ std::string SignatureBreach(const Planner& planner, const object::Object& object
   if (plan.planner != planner.name()) return "made by " + plan.planner;
   if (plan.dimension != object.dimension()) return "of another dimension";
   if (plan.fingers != planner.ScopeIn(object.dimension())->fingers) return "for another hand";
-  return plan.half_angle == Radians(kDegrees) ? "" : "for another friction";
+  return plan.friction_angle == Radians(kDegrees) ? "" : "for another friction";
 }
 
 /// Return the first breach that `breach(seed)` finds.
@@ -163,7 +163,7 @@ std::string TheMarginIsTheSmallestAtRest(const Planner& planner, const object::O
     if (!result.plan) return "no plan";
     double smallest = std::numeric_limits<double>::infinity();
     for (const grasp::Grasp& grasp : RestsOf(*result.plan)) {
-      const auto required = grasp::ComputeRequiredHalfAngle(grasp, object.wrench_frame());
+      const auto required = grasp::ComputeRequiredFrictionAngle(grasp, object.wrench_frame());
       smallest = std::min(smallest, Radians(kDegrees) - required.value().upper);
     }
     if (std::abs(result.margin - smallest) <= kMarginTolerance) return "";

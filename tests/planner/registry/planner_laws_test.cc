@@ -109,9 +109,9 @@ const std::vector<BadCase>& BadCases() {
        }},
       {"TakesMoreFrictionThanThereIs", "PlansPassTheChecker", "polygon", "not-force-closure",
        [](const Planner& good, PlanRequest request) {
-         request.criteria.half_angle *= 2;
+         request.criteria.friction_angle *= 2;
          PlanResult result = good.Plan(request);
-         if (result.plan) result.plan->half_angle /= 2;
+         if (result.plan) result.plan->friction_angle /= 2;
          return result;
        }},
       {"TakesTheStartsContactsInAnotherOrder", "GivenGraspsAreTheEnds", "general",
@@ -186,7 +186,7 @@ const std::vector<BadCase>& BadCases() {
        }},
       {"SlipsOnMoreFriction", "MoreFrictionLosesNoPlan", "general", "45.0",
        [](const Planner& good, PlanRequest request) {
-         return request.criteria.half_angle > Radians(30) ? NoSequence() : good.Plan(request);
+         return request.criteria.friction_angle > Radians(30) ? NoSequence() : good.Plan(request);
        }},
       {"NeverLooksAtItsDeadline", "EndsAtItsDeadline", "polygon", "never looks",
        [](const Planner& good, PlanRequest request) {

@@ -64,7 +64,7 @@ Listener SummarizeWith(const std::string& planner, const std::string& model,
   const object::ObjectFile file = ReadModel(model);
   Listener listener;
   request.object = file.object.get();
-  request.criteria.half_angle = 0.3;
+  request.criteria.friction_angle = 0.3;
   request.progress = listener.tell();
   EXPECT_GT(FindPlanner(planner)->SummarizeGraph(request).vertices, 0);
   return listener;

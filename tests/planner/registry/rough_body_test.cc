@@ -18,7 +18,7 @@ namespace rough_body_test {
 
 constexpr double kPatch = 0.15;
 constexpr double kRoughness_deg = 5;
-constexpr double kHalfAngle_deg = 20;
+constexpr double kFrictionAngle_deg = 20;
 
 /// Return a sphere of radius 1 with triangles whose normals deviate by up to 30°.
 object::Polyhedron RoughSphere(bool felt) {
@@ -32,10 +32,10 @@ object::Polyhedron RoughSphere(bool felt) {
 }
 
 planning::PlanResult PlanOn(const object::Polyhedron& body, const planning::Planner& planner,
-                            double half_angle_deg, std::uint64_t seed) {
+                            double friction_angle_deg, std::uint64_t seed) {
   planning::PlanRequest request;
   request.object = &body;
-  request.criteria.half_angle = Radians(half_angle_deg);
+  request.criteria.friction_angle = Radians(friction_angle_deg);
   request.seed = seed;
   request.start = {planning::GraspChoice::Kind::kRandomAny, {}, "start"};
   request.goal = {planning::GraspChoice::Kind::kRandomAny, {}, "goal"};
@@ -44,7 +44,7 @@ planning::PlanResult PlanOn(const object::Polyhedron& body, const planning::Plan
 
 /// Return whether a plan passes the checker's test of contact patches.
 bool HoldsWithPatches(const object::Polyhedron& body, plan::Plan plan) {
-  plan.half_angle = Radians(kHalfAngle_deg);
+  plan.friction_angle = Radians(kFrictionAngle_deg);
   plan.patch_radius = kPatch;
   return plan::CheckPlan(body, plan).passed();
 }
@@ -56,10 +56,10 @@ TEST_P(RoughBody, TakesNoFingersWhereItIsRoughAndPlansHoldWithThePatchesNormals)
   int rests = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const planning::PlanResult result =
-        PlanOn(body, *FindPlanner(GetParam()), kHalfAngle_deg - kRoughness_deg, seed);
+        PlanOn(body, *FindPlanner(GetParam()), kFrictionAngle_deg - kRoughness_deg, seed);
     if (!result.plan) continue;
     EXPECT_TRUE(HoldsWithPatches(body, *result.plan)) << seed;
-    for (const grasp::Grasp& rest : RestsOf(plan::LocatePlan(body, *result.plan))) {
+    for (const grasp::Grasp& rest : RestsOf(plan::ProjectPlan(body, *result.plan))) {
       for (const grasp::Contact& contact : rest) {
         EXPECT_FALSE(body.IsRough(contact.face, contact.p)) << seed;
       }
@@ -77,7 +77,8 @@ TEST(RoughBodyControl, WithoutALookAtPatchesSomePlansLoseAGrasp) {
   int found = 0;
   int lost = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const planning::PlanResult result = PlanOn(body, *FindPlanner("general"), kHalfAngle_deg, seed);
+    const planning::PlanResult result =
+        PlanOn(body, *FindPlanner("general"), kFrictionAngle_deg, seed);
     if (!result.plan) continue;
     ++found;
     lost += HoldsWithPatches(body, *result.plan) ? 0 : 1;

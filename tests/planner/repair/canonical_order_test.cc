@@ -42,14 +42,14 @@ TEST(CanonicalOrder, DoesNotDependOnHowASurfaceIsNumbered) {
   }
 }
 
-TEST(CanonicalOrder, KeepsOrientationAndWhatWasInvented) {
+TEST(CanonicalOrder, KeepsOrientationAndWhatWasFilled) {
   PolygonSoup cube = UnitCubeSoup();
-  cube.invented.assign(6, false);
-  cube.invented[4] = true;
+  cube.filled.assign(6, false);
+  cube.filled[4] = true;
   const PolygonSoup ordered = InCanonicalOrder(cube);
   std::vector<Eigen::Vector3d> marked;
   for (std::size_t f = 0; f < 6; ++f) {
-    if (!ordered.invented[f]) continue;
+    if (!ordered.filled[f]) continue;
     for (const int v : ordered.facets[f]) marked.push_back(ordered.vertices[v]);
   }
   std::vector<Eigen::Vector3d> was;

@@ -33,7 +33,7 @@ TEST(Comparison, OfASurfaceWithItselfIsNothing) {
   EXPECT_EQ(same.seen_most, 0);
   EXPECT_EQ(same.normal_most, 0);
   EXPECT_EQ(same.seen_share, 1);
-  EXPECT_EQ(same.invented_share, 0);
+  EXPECT_EQ(same.filled_share, 0);
 }
 
 TEST(Comparison, OfABoxWithALargerOneKnowsTheDistances) {
@@ -50,7 +50,7 @@ TEST(Comparison, OfABoxWithALargerOneKnowsTheDistances) {
   EXPECT_LT(grown.to_original.largest, corner);
   EXPECT_GE(grown.to_original.bound, corner);
   EXPECT_LE(grown.to_original.bound, corner + 2e-3 * diameter);
-  EXPECT_EQ(grown.invented_share, 1);
+  EXPECT_EQ(grown.filled_share, 1);
   EXPECT_EQ(grown.thin_share, 0);
 }
 
@@ -63,7 +63,7 @@ TEST(Comparison, OfAFacetThatIsCutAnewTheBoundIsTight) {
   cut.facets = {{0, 3, 2}, {3, 1, 2}};
   const Comparison same = Compare(whole, cut, 1);
   EXPECT_LE(same.to_original.bound, 1e-3 + 1e-12);
-  EXPECT_EQ(same.invented_share, 0);
+  EXPECT_EQ(same.filled_share, 0);
 }
 
 TEST(Comparison, OfAPartOnlyItsOwnOriginalCounts) {

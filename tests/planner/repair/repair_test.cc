@@ -13,7 +13,7 @@
 #include "planner/base/error.h"
 #include "planner/object/mesh_defect.h"
 #include "planner/object/read_object.h"
-#include "planner/repair/invented_marks.h"
+#include "planner/repair/filled_marks.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/soups.h"
 
@@ -78,7 +78,7 @@ PolygonSoup Quartered(const PolygonSoup& soup) {
       const int first = static_cast<int>(fine.vertices.size());
       fine.vertices.insert(fine.vertices.end(), corners.begin(), corners.end());
       fine.facets.push_back({first, first + 1, first + 2});
-      fine.invented.push_back(soup.invented[f]);
+      fine.filled.push_back(soup.filled[f]);
     }
   }
   return fine;
@@ -108,25 +108,25 @@ TEST(Repair, ASolidStaysAsItIs) {
   EXPECT_EQ(LastStage(repaired), "read");
   EXPECT_NEAR(repaired.volume, 1, kTight);
   EXPECT_EQ(repaired.comparison.to_solid.largest, 0);
-  EXPECT_EQ(repaired.comparison.invented_share, 0);
+  EXPECT_EQ(repaired.comparison.filled_share, 0);
 }
 
-TEST(Repair, ACubeWithoutAFaceGetsItBackAsInvented) {
+TEST(Repair, ACubeWithoutAFaceGetsItBackAsFilled) {
   PolygonSoup cube = UnitCubeSoup();
   const std::vector<int> lost = cube.facets.back();
   cube.facets.pop_back();
   const Repaired repaired = Repair(cube, "cube", {});
   EXPECT_EQ(LastStage(repaired), "fill-holes");
   EXPECT_NEAR(repaired.volume, 1, kTight);
-  EXPECT_NEAR(repaired.comparison.invented_share, 1.0 / 6, kTight);
+  EXPECT_NEAR(repaired.comparison.filled_share, 1.0 / 6, kTight);
   const Polyhedron solid = SolidOf(repaired);
-  int invented = 0;
+  int filled = 0;
   for (FaceIndex face{0}; face < solid.face_count(); ++face) {
-    if (!solid.IsInvented(face)) continue;
-    ++invented;
+    if (!solid.IsFilled(face)) continue;
+    ++filled;
     EXPECT_NEAR(solid.CentroidOf(face).x(), cube.vertices[lost[0]].x(), kTight);
   }
-  EXPECT_EQ(invented, 1);
+  EXPECT_EQ(filled, 1);
   EXPECT_EQ(repaired.stages.back().facts["holes"], 1);
   EXPECT_NEAR(repaired.stages.back().facts["widest"][0]["border_length"], 4, kTight);
   EXPECT_NEAR(repaired.stages.back().facts["widest"][0]["width"], std::sqrt(2), kTight);
@@ -138,18 +138,18 @@ TEST(Repair, WhatWasInventedStaysInventedWhenItIsRepairedAgain) {
   const Repaired once = Repair(cube, "cube", {});
   const Repaired again = Repair(once.solid, "cube", {});
   EXPECT_EQ(LastStage(again), "read");
-  EXPECT_EQ(again.solid.invented, once.solid.invented);
+  EXPECT_EQ(again.solid.filled, once.solid.filled);
   EXPECT_EQ(FormatSolid(again.solid), FormatSolid(once.solid));
 }
 
 TEST(Repair, WhatWasInventedStaysInventedWhereTheMarkedFileIsNoSolidAnyMore) {
   PolygonSoup cube = MarkedCube();
-  ASSERT_TRUE(cube.invented.back());
+  ASSERT_TRUE(cube.filled.back());
   cube.facets.pop_back();  // one of the lid's triangles
-  cube.invented.pop_back();
+  cube.filled.pop_back();
   const Repaired again = Repair(cube, "cube", {});
   EXPECT_EQ(LastStage(again), "fill-holes");
-  EXPECT_NEAR(InventedShare(again.solid), 1.0 / 6, kTight);
+  EXPECT_NEAR(FilledShare(again.solid), 1.0 / 6, kTight);
 }
 
 TEST(Repair, WhatWasInventedStaysInventedInACoarserSolid) {
@@ -158,11 +158,11 @@ TEST(Repair, WhatWasInventedStaysInventedInACoarserSolid) {
   options.facets = 100;
   const Repaired coarse = Repair(cube, "cube", options);
   EXPECT_EQ(LastStage(coarse), "simplify");
-  EXPECT_NEAR(InventedShare(coarse.solid), 1.0 / 6, kTight);
+  EXPECT_NEAR(FilledShare(coarse.solid), 1.0 / 6, kTight);
   EXPECT_NEAR(SolidOf(coarse).mass_properties().volume, 1, kTight);
   // Control: without marks no surface is filled.
-  cube.invented.clear();
-  EXPECT_EQ(InventedShare(Repair(cube, "cube", options).solid), 0);
+  cube.filled.clear();
+  EXPECT_EQ(FilledShare(Repair(cube, "cube", options).solid), 0);
 }
 
 /// Collapsing edges without care makes triangles of this surface intersect.
@@ -202,19 +202,19 @@ TEST(Repair, ACoarserSolidIsNotInventedWhereItIsMerelyFarOff) {
   options.facets = 60;
   options.max_deviation = 0.1;
   const Repaired coarse = Repair(SphereSoup(20), "sphere", options);
-  EXPECT_GT(coarse.comparison.seen_most, 2 * kInventedDistance * coarse.diameter);
-  EXPECT_EQ(coarse.comparison.invented_share, 0);
+  EXPECT_GT(coarse.comparison.seen_most, 2 * kFilledDistance * coarse.diameter);
+  EXPECT_EQ(coarse.comparison.filled_share, 0);
   // Control: the filled surface of a gap keeps its mark.
-  const double share = Repair(SphereAbove(-0.75), "most", {}).comparison.invented_share;
+  const double share = Repair(SphereAbove(-0.75), "most", {}).comparison.filled_share;
   const Repaired lid = Repair(SphereAbove(-0.75), "most", options);
   EXPECT_EQ(LastStage(lid), "simplify");
-  EXPECT_NEAR(InventedShare(lid.solid), share, 0.5 * share);
+  EXPECT_NEAR(FilledShare(lid.solid), share, 0.5 * share);
   // The required deviation is respected.
   options.max_deviation = 0.005;
   EXPECT_THAT(Refusal(SphereSoup(20), options), HasSubstr("deviates too much"));
 }
 
-TEST(Repair, NoContactIsDrawnOnInventedSurface) {
+TEST(Repair, NoContactIsDrawnOnFilledSurface) {
   PolygonSoup cube = UnitCubeSoup();
   cube.facets.pop_back();
   const Polyhedron solid = SolidOf(Repair(cube, "cube", {}));
@@ -222,12 +222,12 @@ TEST(Repair, NoContactIsDrawnOnInventedSurface) {
   EXPECT_NEAR(sampler.measure(), 5, kTight);
   // Control: without marks all six faces are sampled.
   PolygonSoup unmarked = Repair(cube, "cube", {}).solid;
-  unmarked.invented.clear();
+  unmarked.filled.clear();
   const Polyhedron whole = Polyhedron::FromSoup(unmarked, "whole");
   EXPECT_NEAR(sampling::SurfaceSampler(whole).measure(), 6, kTight);
 }
 
-TEST(Repair, InventedSurfaceJoinsNoFaceOfTheOriginal) {
+TEST(Repair, FilledSurfaceJoinsNoFaceOfTheOriginal) {
   // A filled gap in the middle of a planar face is coplanar with it, but a separate face.
   PolygonSoup block = HoleBlockSoup();
   std::erase_if(block.facets, [](const std::vector<int>& f) {
@@ -244,7 +244,7 @@ TEST(Repair, OverlappingShellsBecomeTheirUnion) {
   const Repaired repaired = Repair(two, "two", {});
   EXPECT_EQ(LastStage(repaired), "unite-shells");
   EXPECT_NEAR(repaired.volume, 2.25, kTight);
-  EXPECT_EQ(repaired.comparison.invented_share, 0);
+  EXPECT_EQ(repaired.comparison.filled_share, 0);
   EXPECT_EQ(repaired.stages.back().facts["shells"], 2);
 }
 
@@ -344,8 +344,8 @@ TEST(Repair, AScanOfOneSideIsRefusedWithTheShareThatIsMissing) {
               AllOf(HasSubstr("surface incomplete"), HasSubstr("filled in"), HasSubstr("25 %")));
   // Control: most of the sphere suffices.
   const Repaired most = Repair(SphereAbove(-0.75), "most", {});
-  EXPECT_GT(most.comparison.invented_share, 0.05);
-  EXPECT_LT(most.comparison.invented_share, 0.25);
+  EXPECT_GT(most.comparison.filled_share, 0.05);
+  EXPECT_LT(most.comparison.filled_share, 0.25);
 }
 
 TEST(Repair, AStrayFacetIsDropped) {
@@ -407,7 +407,7 @@ TEST(Repair, ACloudOfPointsOfAllSidesBecomesABodyAndOneOfOneSideIsRefused) {
   PolygonSoup cloud{SphereSoup(40).vertices, {}};
   const Repaired repaired = Repair(cloud, "cloud", {});
   EXPECT_NEAR(repaired.volume, 4.0 / 3 * 3.14159265, 0.05);
-  EXPECT_LT(repaired.comparison.invented_share, 0.01);
+  EXPECT_LT(repaired.comparison.filled_share, 0.01);
   std::erase_if(cloud.vertices, [](const Vector3d& v) { return v.z() < 0; });
   EXPECT_THAT(Refusal(cloud), HasSubstr("surface incomplete"));
 }
@@ -462,7 +462,7 @@ TEST(Repair, TheSameSurfaceGivesTheSameBytesAndTheFileHoldsTheSameSolid) {
   const PolygonSoup read = object::ReadObj(text, "file");
   EXPECT_EQ(read.vertices, repaired.solid.vertices);
   EXPECT_EQ(read.facets, repaired.solid.facets);
-  EXPECT_EQ(read.invented, repaired.solid.invented);
+  EXPECT_EQ(read.filled, repaired.solid.filled);
 }
 
 TEST(Repair, ACoarserSolidHasNoMoreFacetsThanAskedAndKeepsToTheDeviation) {
@@ -483,7 +483,7 @@ TEST(Repair, LengthsScaleWithTheObjectAndSharesStay) {
   const Repaired small = Repair(cube, "cube", {});
   EXPECT_NEAR(small.volume, 1e-9, 1e-9 * kTight);
   EXPECT_NEAR(small.diameter, 1e-3 * one.diameter, kTight);
-  EXPECT_NEAR(small.comparison.invented_share, one.comparison.invented_share, kTight);
+  EXPECT_NEAR(small.comparison.filled_share, one.comparison.filled_share, kTight);
 }
 
 TEST(Repair, TheTimeLimitEndsIt) {

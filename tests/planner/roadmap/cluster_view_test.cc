@@ -13,7 +13,7 @@
 namespace regrasp::roadmap {
 namespace cluster_view_test {
 
-const double kHalfAngle = Radians(20), kRoughness = Radians(5);
+const double kFrictionAngle = Radians(20), kRoughness = Radians(5);
 
 /// Read a mug that is rough near the edges of its triangles only.
 object::Polyhedron ReadMug(const object::Reading& reading) {
@@ -28,10 +28,10 @@ object::Reading ReadingOfPatches() {
 }
 
 /// Return the request of the program `plan` for a roadmap.
-planning::PlanRequest RequestOn(const object::Polyhedron& solid, double half_angle) {
+planning::PlanRequest RequestOn(const object::Polyhedron& solid, double friction_angle) {
   planning::PlanRequest request;
   request.object = &solid;
-  request.criteria.half_angle = half_angle;
+  request.criteria.friction_angle = friction_angle;
   request.seed = 3;
   request.parameters.Edit<RoadmapParameters>().contact_points = 200;
   request.parameters.Edit<RoadmapParameters>().clusters = 10;
@@ -40,7 +40,7 @@ planning::PlanRequest RequestOn(const object::Polyhedron& solid, double half_ang
 
 plan::Plan PlanOver() {
   plan::Plan plan;
-  plan.half_angle = kHalfAngle;
+  plan.friction_angle = kFrictionAngle;
   plan.roadmap = plan::RoadmapNote{200, 10, 3, "vertex", "vertex"};
   return plan;
 }
@@ -55,14 +55,15 @@ std::vector<Eigen::Vector3d> RepresentativesOf(const ContactClusters& clusters) 
 
 TEST(DescribeClusters, FindsThoseOfAPlanAgain) {
   const object::Polyhedron solid = ReadMug({});
-  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(RequestOn(solid, kHalfAngle));
+  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(RequestOn(solid, kFrictionAngle));
   EXPECT_EQ(DescribeClusters(solid, PlanOver()).representatives,
             RepresentativesOf(roadmap.clusters));
 }
 
 TEST(DescribeClusters, FindsThoseOfAPlanWithPatchesAgain) {
   const object::Polyhedron solid = ReadMug(ReadingOfPatches());
-  const ClusteredRoadmap roadmap = BuildClusteredRoadmap(RequestOn(solid, kHalfAngle - kRoughness));
+  const ClusteredRoadmap roadmap =
+      BuildClusteredRoadmap(RequestOn(solid, kFrictionAngle - kRoughness));
   plan::Plan plan = PlanOver();
   plan.roadmap->roughness = kRoughness;
   const std::vector<Eigen::Vector3d> found = DescribeClusters(solid, plan).representatives;
@@ -75,7 +76,7 @@ TEST(DescribeClusters, FindsThoseOfAPlanWithPatchesAgain) {
 
 TEST(DescribeClusters, FindsThoseOfThickFingersAgain) {
   const object::Polyhedron solid = ReadMug({});
-  planning::PlanRequest request = RequestOn(solid, kHalfAngle);
+  planning::PlanRequest request = RequestOn(solid, kFrictionAngle);
   request.hand.fingertip_radius = 0.1 * solid.diameter();
   const ClusteredRoadmap roadmap = BuildClusteredRoadmap(request);
   plan::Plan plan = PlanOver();

@@ -21,25 +21,26 @@ struct Problem {
   Problem(object::Polyhedron body, double degrees, int clusters)
       : solid(std::move(body)),
         // The number of contact points equals that of triangles, so they are the centroids.
-        roadmap(solid, {.half_angle = Radians(degrees),
+        roadmap(solid, {.friction_angle = Radians(degrees),
                         .contacts = static_cast<int>(solid.triangles().size()),
                         .clusters = clusters,
                         .seed = 1}),
-        is_grasp(ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle)),
+        is_grasp(
+            ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.friction_angle)),
         numbers(roadmap.clusters.clustered_count()),
         all((std::iota(numbers.begin(), numbers.end(), 0), Subsets(numbers, is_grasp))),
         graph(all) {}
 
   [[nodiscard]] ContactChain Find(const Quadruple& start, const Quadruple& goal,
                                   bool last_resort) const {
-    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.half_angle, 0});
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.friction_angle, 0});
     return FindContactChain(roadmap, roadmap.clusters, oracle, start, goal, last_resort);
   }
 
   /// Return whether start and goal are connected among the representatives and the contacts of the
   /// ends that algorithms 1 and 2 do not link.
   [[nodiscard]] bool JoinedByRoadmap(const Quadruple& start, const Quadruple& goal) const {
-    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.half_angle, 0});
+    GraspOracle oracle(solid, roadmap.clusters.contacts(), {roadmap.friction_angle, 0});
     LocalPlanners local(roadmap.clusters, roadmap.roadmap, oracle);
     std::set<int> contacts(roadmap.clusters.representatives().begin(),
                            roadmap.clusters.representatives().end());
@@ -143,9 +144,9 @@ TEST(FindContactChain, OfAGraspToItselfEndsWhereItStarts) {
 TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
   for (const char* name : {"ellipsoid500", "mug500", "spanner500"}) {
     const object::Polyhedron solid = ReadMesh(name);
-    const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
+    const ClusteredRoadmap roadmap(solid, {.friction_angle = Radians(10), .clusters = 30});
     const auto is_grasp =
-        ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle);
+        ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.friction_angle);
     int found = 0;
     for (const RandomQuery& query : RunRandomQueries(roadmap, solid, 30, 1, true)) {
       const ContactChain& chain = query.chain;
@@ -160,7 +161,7 @@ TEST(FindContactChain, ThirtyOfThirtyQueriesOnModelsFindOne) {
 
 TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
   const object::Polyhedron solid = ReadMesh("spanner500");
-  const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = 30});
+  const ClusteredRoadmap roadmap(solid, {.friction_angle = Radians(10), .clusters = 30});
   int by_roadmap = 0;
   int by_last_resort = 0;
   const auto with = RunRandomQueries(roadmap, solid, 30, 1, true);
@@ -185,7 +186,7 @@ TEST(FindContactChain, WithoutLastResortCanMissWhatThereIs) {
 TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
   const object::Polyhedron solid = ReadMesh("mug500");
   const auto ends = [&](int clusters, std::uint64_t seed) {
-    const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .clusters = clusters});
+    const ClusteredRoadmap roadmap(solid, {.friction_angle = Radians(10), .clusters = clusters});
     std::vector<std::pair<Quadruple, Quadruple>> ends;
     for (const RandomQuery& query : RunRandomQueries(roadmap, solid, 5, seed, false)) {
       ends.emplace_back(query.start, query.goal);
@@ -199,7 +200,8 @@ TEST(RunRandomQueries, AreTheSameWhateverTheClusters) {
 
 TEST(RunRandomQueries, LookAtTheDeadlineForEveryQueryAndEndWhereverItComes) {
   const object::Polyhedron solid = MakeConvexBody(20, 3);
-  const ClusteredRoadmap roadmap(solid, {.half_angle = Radians(10), .contacts = 36, .clusters = 6});
+  const ClusteredRoadmap roadmap(solid,
+                                 {.friction_angle = Radians(10), .contacts = 36, .clusters = 6});
   const auto run = [&](const Deadline& deadline) {
     return RunRandomQueries(roadmap, solid, 10, 1, true, deadline).size();
   };
@@ -213,11 +215,11 @@ TEST(RunRandomQueries, LookAtTheDeadlineForEveryQueryAndEndWhereverItComes) {
 TEST(DrawContactGrasp, DrawsForceClosureGraspsOrNone) {
   const object::Polyhedron solid = MakeConvexBody(20, 3);
   const ClusteredRoadmapOptions options = {
-      .half_angle = Radians(10), .contacts = 36, .clusters = 6};
+      .friction_angle = Radians(10), .contacts = 36, .clusters = 6};
   const ClusteredRoadmap roadmap(solid, options);
   const auto is_grasp =
-      ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.half_angle);
-  const criteria::GraspCriteria criteria = {roadmap.half_angle, 0};
+      ForceClosureOf(roadmap.clusters.contacts(), roadmap.frame, roadmap.friction_angle);
+  const criteria::GraspCriteria criteria = {roadmap.friction_angle, 0};
   const criteria::GraspEvaluator evaluator(solid, criteria);
   RandomStream random(1, RandomUse::kStart);
   std::set<Quadruple> drawn;

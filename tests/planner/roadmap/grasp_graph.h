@@ -57,11 +57,11 @@ using IsGrasp = std::function<bool(const Quadruple&)>;
 
 /// Return a predicate for force closure of the contacts.
 inline IsGrasp ForceClosureOf(const std::vector<grasp::Contact>& contacts,
-                              const object::WrenchFrame& frame, double half_angle) {
-  return [&contacts, frame, half_angle](const Quadruple& g) {
+                              const object::WrenchFrame& frame, double friction_angle) {
+  return [&contacts, frame, friction_angle](const Quadruple& g) {
     return grasp::IsForceClosure(
         grasp::Grasp{contacts[g[0]], contacts[g[1]], contacts[g[2]], contacts[g[3]]}, frame,
-        half_angle);
+        friction_angle);
   };
 }
 

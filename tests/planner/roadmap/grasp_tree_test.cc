@@ -21,12 +21,12 @@ struct Problem {
       : solid(std::move(body)),
         contacts(Centroids(solid)),
         frame(solid.wrench_frame()),
-        half_angle(Radians(degrees)),
-        is_grasp(ForceClosureOf(contacts, frame, half_angle)),
+        friction_angle(Radians(degrees)),
+        is_grasp(ForceClosureOf(contacts, frame, friction_angle)),
         numbers(contacts.size()),
         graph((std::iota(numbers.begin(), numbers.end(), 0), Subsets(numbers, is_grasp))) {}
 
-  [[nodiscard]] GraspOracle Oracle() const { return {solid, contacts, {half_angle, 0}}; }
+  [[nodiscard]] GraspOracle Oracle() const { return {solid, contacts, {friction_angle, 0}}; }
   [[nodiscard]] double Distance(int a, int b) const {
     return (contacts[a].p - contacts[b].p).norm() + (contacts[a].n - contacts[b].n).norm();
   }
@@ -41,7 +41,7 @@ struct Problem {
   object::Polyhedron solid;
   std::vector<grasp::Contact> contacts;
   object::WrenchFrame frame;
-  double half_angle;
+  double friction_angle;
   IsGrasp is_grasp;
   std::vector<int> numbers;
   GraspGraph graph;

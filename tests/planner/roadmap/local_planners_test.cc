@@ -28,12 +28,12 @@ struct Problem {
   Problem(object::Polyhedron body, double degrees, int cluster_count)
       : solid(std::move(body)),
         frame(solid.wrench_frame()),
-        half_angle(Radians(degrees)),
-        clusters(Centroids(solid), frame, half_angle, cluster_count, 1),
-        roadmap(RepresentativesOf(clusters), frame, half_angle, kNear),
-        oracle(solid, clusters.contacts(), {half_angle, 0}),
+        friction_angle(Radians(degrees)),
+        clusters(Centroids(solid), frame, friction_angle, cluster_count, 1),
+        roadmap(RepresentativesOf(clusters), frame, friction_angle, kNear),
+        oracle(solid, clusters.contacts(), {friction_angle, 0}),
         local(clusters, roadmap, oracle),
-        is_grasp(ForceClosureOf(clusters.contacts(), frame, half_angle)),
+        is_grasp(ForceClosureOf(clusters.contacts(), frame, friction_angle)),
         vertices(Subsets(clusters.representatives(), is_grasp)) {}
 
   /// Return all grasps of four contacts, or every n-th of them if they are too many.
@@ -87,7 +87,7 @@ struct Problem {
 
   object::Polyhedron solid;
   object::WrenchFrame frame;
-  double half_angle;
+  double friction_angle;
   ContactClusters clusters;
   Roadmap roadmap;
   GraspOracle oracle;

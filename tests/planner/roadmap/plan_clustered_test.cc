@@ -61,7 +61,7 @@ TEST_P(PlanOnModel, EveryPlanPassesTheChecker) {
   }
   // Control: the checker rejects the plan at low friction.
   plan::Plan plan = *PlanWith(RoadmapPlanner(), solid, Random(), Random(), Options()).plan;
-  plan.half_angle = Radians(0.5);
+  plan.friction_angle = Radians(0.5);
   EXPECT_FALSE(plan::CheckPlan(solid, plan).passed());
 }
 
@@ -75,7 +75,7 @@ TEST_P(PlanOnModel, KeepsToGoodGraspsOrWarns) {
     ASSERT_EQ(result.status, Status::kFound) << result.message;
     const bool all_good =
         std::ranges::all_of(RestsOf(*result.plan), [&](const grasp::Grasp& grasp) {
-          return grasp::QualityAtLeast(grasp, solid.wrench_frame(), options.criteria.half_angle,
+          return grasp::QualityAtLeast(grasp, solid.wrench_frame(), options.criteria.friction_angle,
                                        options.criteria.min_quality);
         });
     EXPECT_EQ(result.warnings.empty(), all_good) << "seed " << seed;
@@ -183,7 +183,7 @@ TEST(PlanOnClusters, SaysThatAllWasSearchedWhereAGraspIsIsolated) {
                Given(isolated.Pinwheel(1)), options);
   ASSERT_EQ(without.status, Status::kNoSequence);
   EXPECT_THAT(without.message, Not(HasSubstr("last resort")));
-  options.criteria.half_angle = Radians(20);
+  options.criteria.friction_angle = Radians(20);
   EXPECT_EQ(PlanWith(RoadmapPlanner(), isolated.cube, Given(isolated.Pinwheel(0)),
                      Given(isolated.Pinwheel(1)), options)
                 .status,

@@ -8,7 +8,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/contact_point_search.h"
@@ -52,8 +52,9 @@ planning::PlanRequest Options(int contacts, std::uint64_t seed = 0, double degre
   return options;
 }
 
-double Margin(const object::Polyhedron& solid, const grasp::Grasp& grasp, double half_angle) {
-  return half_angle - grasp::ComputeRequiredHalfAngle(grasp, solid.wrench_frame()).value().upper;
+double Margin(const object::Polyhedron& solid, const grasp::Grasp& grasp, double friction_angle) {
+  return friction_angle -
+         grasp::ComputeRequiredFrictionAngle(grasp, solid.wrench_frame()).value().upper;
 }
 
 std::vector<int> JoinedVertex(const Roadmap& roadmap, const grasp::Grasp& grasp) {
@@ -74,12 +75,12 @@ struct BestSequence {
 };
 
 BestSequence FindByBruteForce(const object::Polyhedron& solid, const Roadmap& roadmap, int start,
-                              int goal, double half_angle, double min_quality) {
+                              int goal, double friction_angle, double min_quality) {
   const int count = roadmap.vertex_count();
   std::vector<double> best(count, -std::numeric_limits<double>::infinity());
   std::vector<bool> seen(count, false);
   std::vector<int> level = {start};
-  best[start] = Margin(solid, roadmap.grasp(start), half_angle);
+  best[start] = Margin(solid, roadmap.grasp(start), friction_angle);
   seen[start] = true;
   std::vector<int> neighbours;
   for (int switches = 0; !level.empty(); ++switches) {
@@ -93,13 +94,13 @@ BestSequence FindByBruteForce(const object::Polyhedron& solid, const Roadmap& ro
         const grasp::Grasp grasp = roadmap.grasp(n);
         if (!is_next) {
           if (n != goal &&
-              !grasp::QualityAtLeast(grasp, solid.wrench_frame(), half_angle, min_quality)) {
+              !grasp::QualityAtLeast(grasp, solid.wrench_frame(), friction_angle, min_quality)) {
             continue;
           }
           seen[n] = true;
           next.push_back(n);
         }
-        best[n] = std::max(best[n], std::min(best[v], Margin(solid, grasp, half_angle)));
+        best[n] = std::max(best[n], std::min(best[v], Margin(solid, grasp, friction_angle)));
       }
     }
     if (seen[goal]) return {switches + 1, best[goal]};
@@ -123,7 +124,7 @@ TEST(PlanOnRoadmap, FindsTheBestOfAllSequences) {
     const BestSequence best =
         FindByBruteForce(cube, roadmap, roadmap.Find(JoinedVertex(roadmap, start)).value(),
                          roadmap.Find(JoinedVertex(roadmap, goal)).value(),
-                         options.criteria.half_angle, options.criteria.min_quality);
+                         options.criteria.friction_angle, options.criteria.min_quality);
     if (best.switches < 0) continue;
     const planning::PlanResult result =
         PlanWith(RoadmapPlanner(), cube, Given(start), Given(goal), options);

@@ -16,7 +16,7 @@ namespace wrench_affinity_test {
 /// Accuracy of angles according to the header.
 constexpr double kAngle = 7e-5;
 
-const double kHalfAngle = Radians(10);
+const double kFrictionAngle = Radians(10);
 
 /// Return the distance as defined in the dissertation: arccosines of the standard library, for
 /// every shift.
@@ -37,7 +37,7 @@ std::vector<WrenchPyramid> PyramidsOf(const object::Polyhedron& solid) {
   const std::vector<grasp::Contact> contacts = Centroids(solid);
   std::vector<WrenchPyramid> pyramids;
   for (const grasp::Contact& contact : contacts) {
-    pyramids.push_back(PyramidOf(contact, solid.wrench_frame(), kHalfAngle, contacts));
+    pyramids.push_back(PyramidOf(contact, solid.wrench_frame(), kFrictionAngle, contacts));
   }
   return pyramids;
 }
@@ -45,12 +45,12 @@ std::vector<WrenchPyramid> PyramidsOf(const object::Polyhedron& solid) {
 TEST(PyramidOf, HasUnitWrenchesOfForcesOnTheCone) {
   const object::WrenchFrame frame{{0.01, 0, 0}, 0.05, 3};
   const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), {}};
-  const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, Eigen::Vector3d::UnitY());
+  const WrenchPyramid pyramid = PyramidOf(contact, frame, kFrictionAngle, Eigen::Vector3d::UnitY());
   const Eigen::Vector3d arm = (contact.p - frame.origin) / frame.radius;
   for (int side = 0; side < kPyramidSides; ++side) {
     EXPECT_NEAR(pyramid.col(side).norm(), 1, 1e-14);
     const Eigen::Vector3d force = pyramid.col(side).head<3>();
-    EXPECT_NEAR(std::acos(force.normalized().dot(contact.n)), kHalfAngle, 1e-12);
+    EXPECT_NEAR(std::acos(force.normalized().dot(contact.n)), kFrictionAngle, 1e-12);
     EXPECT_NEAR((arm.cross(force) - pyramid.col(side).tail<3>()).norm(), 0, 1e-14);
     const Eigen::Vector3d next = pyramid.col((side + 1) % kPyramidSides).head<3>();
     EXPECT_GT(force.cross(next).dot(contact.n), 0) << "counter-clockwise about the normal";
@@ -66,9 +66,9 @@ TEST(PyramidOf, TakesTheOthersWhereTheContactIsStraightAboveTheOrigin) {
   const grasp::Contact above{{0, 0, 0.05}, -Eigen::Vector3d::UnitZ(), {}};
   const grasp::Contact aside{{0.02, 0, 0.03}, -Eigen::Vector3d::UnitZ(), {}};
   const std::vector<grasp::Contact> others = {above, aside};
-  const WrenchPyramid pyramid = PyramidOf(above, frame, kHalfAngle, others);
-  EXPECT_TRUE(pyramid.isApprox(PyramidOf(above, frame, kHalfAngle, Eigen::Vector3d::UnitX())));
-  const WrenchPyramid alone = PyramidOf(above, frame, kHalfAngle, std::span(others).first(1));
+  const WrenchPyramid pyramid = PyramidOf(above, frame, kFrictionAngle, others);
+  EXPECT_TRUE(pyramid.isApprox(PyramidOf(above, frame, kFrictionAngle, Eigen::Vector3d::UnitX())));
+  const WrenchPyramid alone = PyramidOf(above, frame, kFrictionAngle, std::span(others).first(1));
   EXPECT_TRUE(alone.allFinite());
 }
 
@@ -97,12 +97,12 @@ TEST(WrenchDistance, OfForcesAtTheOriginIsTheAngleBetweenTheNormalsAtLeast) {
     double expected = 0;
     for (int k = 0; k < kPyramidSides; ++k) {
       const double along_axis =
-          std::sin(kHalfAngle) * std::cos(2 * std::numbers::pi * k / kPyramidSides);
+          std::sin(kFrictionAngle) * std::cos(2 * std::numbers::pi * k / kPyramidSides);
       const double chord = 2 * std::sqrt(1 - along_axis * along_axis) * std::sin(turn / 2);
       expected += 2 * std::asin(chord / 2) / kPyramidSides;
     }
-    EXPECT_NEAR(WrenchDistance(PyramidOf(a, frame, kHalfAngle, axis),
-                               PyramidOf(b, frame, kHalfAngle, axis)),
+    EXPECT_NEAR(WrenchDistance(PyramidOf(a, frame, kFrictionAngle, axis),
+                               PyramidOf(b, frame, kFrictionAngle, axis)),
                 expected, kAngle);
   }
 }
@@ -111,10 +111,10 @@ TEST(WrenchDistance, OfAPyramidTurnedByWholeSidesIsZero) {
   const object::WrenchFrame frame{Eigen::Vector3d::Zero(), 0.05, 3};
   const grasp::Contact contact{{0.03, 0.02, 0.01}, Eigen::Vector3d(-1, 0.2, 0.1).normalized(), {}};
   const Eigen::Vector3d towards = contact.n.unitOrthogonal();
-  const WrenchPyramid pyramid = PyramidOf(contact, frame, kHalfAngle, towards);
+  const WrenchPyramid pyramid = PyramidOf(contact, frame, kFrictionAngle, towards);
   const auto turned = [&](double sides) {
     const Eigen::AngleAxisd turn(2 * std::numbers::pi * sides / kPyramidSides, contact.n);
-    return WrenchDistance(pyramid, PyramidOf(contact, frame, kHalfAngle, turn * towards));
+    return WrenchDistance(pyramid, PyramidOf(contact, frame, kFrictionAngle, turn * towards));
   };
   for (int sides = 0; sides < kPyramidSides; ++sides) EXPECT_NEAR(turned(sides), 0, 1e-7);
   EXPECT_GT(turned(0.5), 0.01);
@@ -148,8 +148,8 @@ TEST(WrenchDistance, DependsNeitherOnTheUnitOfLengthNorOnThePose) {
   object::WrenchFrame frame = body.wrench_frame();
   const std::vector<grasp::Contact> contacts = Centroids(body);
   const auto distance = [&] {
-    return WrenchDistance(PyramidOf(contacts[0], frame, kHalfAngle, contacts),
-                          PyramidOf(contacts[1], frame, kHalfAngle, contacts));
+    return WrenchDistance(PyramidOf(contacts[0], frame, kFrictionAngle, contacts),
+                          PyramidOf(contacts[1], frame, kFrictionAngle, contacts));
   };
   const double before = distance();
   frame.radius = 1;

@@ -32,7 +32,7 @@ class DrawFromSetsOfASquare : public testing::Test {
   }
 
   const object::Polygon square_ = Square(1);
-  const criteria::GraspEvaluator evaluator_{square_, {.half_angle = Radians(20)}};
+  const criteria::GraspEvaluator evaluator_{square_, {.friction_angle = Radians(20)}};
   RandomStream random_{1, RandomUse::kGoal};
   std::vector<SetIndex> seen_;
 };

@@ -19,7 +19,7 @@ plan::Plan PlanOf(const GraspPath& path, const grasp::Grasp& from, const grasp::
   const planning::CandidateSequence candidate = MakeCandidate(path, from, space);
   plan::Plan plan;
   plan.dimension = space.dimension();
-  plan.half_angle = space.criteria().half_angle;
+  plan.friction_angle = space.criteria().friction_angle;
   plan.fingers = space.fingers();
   plan.initial = candidate.initial;
   plan.steps = candidate.steps;
@@ -36,7 +36,7 @@ int CheckAligns(const GraspPath& path, const SearchSpace& space) {
     const std::vector<grasp::Grasp> waypoints = WaypointsOf(*step.align, space);
     for (std::size_t w = 0; w + 1 < waypoints.size(); ++w) {
       EXPECT_EQ(motion::CheckMotionProof(waypoints[w], waypoints[w + 1], space.dimension(),
-                                         std::tan(space.half_angle()), step.align->proof.at(w))
+                                         std::tan(space.friction_angle()), step.align->proof.at(w))
                     .kind,
                 motion::ProofVerdict::Kind::kForceClosure);
     }
@@ -87,7 +87,8 @@ TEST_P(BidirectionalTreeCases, JoinGraspsByWaysThatTheCheckerPasses) {
 
     const GraspPath wider = MaximiseMargin(shorter, 0, source, random, space);
     EXPECT_LE(wider.steps.size(), shorter.steps.size());
-    EXPECT_LE(RequiredHalfAngleOf(wider, space), RequiredHalfAngleOf(shorter, space) + 1e-6);
+    EXPECT_LE(RequiredFrictionAngleOf(wider, space),
+              RequiredFrictionAngleOf(shorter, space) + 1e-6);
     CheckAligns(wider, space);
     EXPECT_TRUE(plan::CheckPlan(object, PlanOf(wider, from, to, space)).passed()) << i;
   }

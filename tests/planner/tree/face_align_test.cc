@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/contact_motion.h"
 #include "planner/plan/check_step.h"
@@ -56,10 +56,10 @@ void ExpectSound(const FaceAlign& align, const SearchSpace& space) {
     const motion::GraspMotion motion = MotionOf(from, to);
     for (int k = 0; k <= kInstants; ++k) {
       EXPECT_TRUE(grasp::IsForceClosure(motion::GraspAt(motion, static_cast<double>(k) / kInstants),
-                                        space.object().wrench_frame(), space.half_angle()));
+                                        space.object().wrench_frame(), space.friction_angle()));
     }
     const auto verdict = motion::CheckMotionProof(from, to, space.dimension(),
-                                                  std::tan(space.half_angle()), align.proof[w]);
+                                                  std::tan(space.friction_angle()), align.proof[w]);
     EXPECT_TRUE(verdict.proves()) << verdict.why;
   }
 }
@@ -210,7 +210,7 @@ double RequiredWhileTurning(const std::vector<grasp::Grasp>& waypoints, double t
                             const object::WrenchFrame& frame) {
   for (std::size_t w = 1; w < waypoints.size(); ++w) {
     if (TurnsOf({waypoints[w - 1], waypoints[w]}) == 0) continue;
-    const auto required = grasp::ComputeRequiredHalfAngle(
+    const auto required = grasp::ComputeRequiredFrictionAngle(
         motion::GraspAt(MotionOf(waypoints[w - 1], waypoints[w]), t), frame);
     return required ? required->upper : std::numeric_limits<double>::infinity();
   }

@@ -24,7 +24,7 @@ void ExpectIsPath(const GraspPath& path, const SearchSpace& space) {
       EXPECT_LE(criteria::ContactSet::CountUnion(*before, step.to), space.fingers());
     }
     EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), space.object().wrench_frame(),
-                                      space.half_angle()));
+                                      space.friction_angle()));
     before = &step.to;
   }
 }
@@ -45,7 +45,7 @@ class ImprovePathCases : public testing::TestWithParam<Case> {
   /// Return a path between random grasps of the given quality.
   GraspPath Draw(double quality, std::uint64_t seed, SearchSpace& space) {
     RandomStream draws(seed, RandomUse::kStart);
-    const criteria::GraspCriteria criteria{criteria_.half_angle, quality};
+    const criteria::GraspCriteria criteria{criteria_.friction_angle, quality};
     const criteria::ContactSet from =
         Take(DrawGrasp(*file_.object, GetParam().contacts, criteria, draws), space);
     const criteria::ContactSet to =
@@ -89,13 +89,13 @@ TEST_P(ImprovePathCases, RepairedPathsHaveTheQualityThatTheyAreSaidToHave) {
   int repaired = 0;
   int weak = 0;
   for (int seed = 0; seed < seeds; ++seed) {
-    SearchSpace space(*file_.object, {criteria_.half_angle, kQuality});
+    SearchSpace space(*file_.object, {criteria_.friction_angle, kQuality});
     space.SetShare(0);
     RandomStream random(seed, RandomUse::kCandidates);
     GraspPath path = ShortcutPath(Draw(kQuality, seed, space), source_, random, space);
     const auto quality_of = [&](const criteria::ContactSet& set) {
       return grasp::ComputeQuality(space.GraspOf(set), file_.object->wrench_frame(),
-                                   criteria_.half_angle)
+                                   criteria_.friction_angle)
           .upper;
     };
     for (const PathStep& step : path.steps) weak += quality_of(step.to) < kQuality ? 1 : 0;

@@ -7,7 +7,7 @@
 #include <queue>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/planner/tree/search_cases.h"
 
 namespace regrasp::tree {
@@ -37,7 +37,7 @@ int FewestSwitches(const criteria::ContactSet& from, const criteria::ContactSet&
        AllSets(contacts, space.fewest_contacts(), space.fingers())) {
     if (set == from || set == to) continue;
     if (grasp::IsForceClosure(space.GraspOf(set), space.object().wrench_frame(),
-                              space.half_angle())) {
+                              space.friction_angle())) {
       grasps.push_back(set);
     }
   }
@@ -107,7 +107,7 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
     for (const PathStep& step : path->steps) {
       EXPECT_LE(criteria::ContactSet::CountUnion(*before, step.to), space.fingers());
       EXPECT_TRUE(grasp::IsForceClosure(space.GraspOf(step.to), file.object->wrench_frame(),
-                                        criteria.half_angle));
+                                        criteria.friction_angle));
       before = &step.to;
     }
   }
@@ -117,14 +117,14 @@ TEST_P(SubsetSearchCases, FindsTheFewestSwitchesOfAllSubsets) {
 
 /// Return the least friction angle at which `steps` switches connect two grasps, based only on its
 /// definition.
-double LeastHalfAngle(const criteria::ContactSet& from, const criteria::ContactSet& to,
-                      const std::vector<int>& contacts, int steps, const SearchSpace& space) {
+double LeastFrictionAngle(const criteria::ContactSet& from, const criteria::ContactSet& to,
+                          const std::vector<int>& contacts, int steps, const SearchSpace& space) {
   std::vector<std::pair<criteria::ContactSet, double>> grasps = {{from, 0}, {to, 0}};
   for (const criteria::ContactSet& set :
        AllSets(contacts, space.fewest_contacts(), space.fingers() - 1)) {
     if (set == from || set == to) continue;
     const auto required =
-        grasp::ComputeRequiredHalfAngle(space.GraspOf(set), space.object().wrench_frame());
+        grasp::ComputeRequiredFrictionAngle(space.GraspOf(set), space.object().wrench_frame());
     if (required) grasps.emplace_back(set, required->upper);
   }
   std::vector<double> least(grasps.size(), std::numeric_limits<double>::infinity());
@@ -155,13 +155,13 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
     const auto to = Take(DrawGrasp(*file.object, GetParam().to_contacts, criteria, random), space);
     const std::vector<int> contacts = Numbers(space);
     for (const int steps : {2, 3, 4}) {
-      const double expected = LeastHalfAngle(from, to, contacts, steps, space);
+      const double expected = LeastFrictionAngle(from, to, contacts, steps, space);
       const auto path = SearchWidest(from, to, contacts, UseAligns::kNo, steps, 0, space);
-      EXPECT_EQ(space.half_angle(), criteria.half_angle);
-      if (expected > criteria.half_angle) {
+      EXPECT_EQ(space.friction_angle(), criteria.friction_angle);
+      if (expected > criteria.friction_angle) {
         EXPECT_FALSE(path);
       }
-      if (expected > criteria.half_angle - kAccuracy) continue;
+      if (expected > criteria.friction_angle - kAccuracy) continue;
       ASSERT_TRUE(path);
       ++wider;
       EXPECT_LE(static_cast<int>(path->steps.size()), steps);
@@ -172,7 +172,7 @@ TEST_P(SubsetSearchCases, TheWidestWayNeedsTheLeastHalfAngleOfAllSubsets) {
       }
       // If the bound excludes a path, none is searched.
       EXPECT_FALSE(
-          SearchWidest(from, to, contacts, UseAligns::kNo, steps, criteria.half_angle, space));
+          SearchWidest(from, to, contacts, UseAligns::kNo, steps, criteria.friction_angle, space));
     }
   }
   EXPECT_GT(wider, 0);

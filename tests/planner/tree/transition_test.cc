@@ -43,12 +43,12 @@ TEST(FindTransition, MovesUntilAFingerCanBeSwitched) {
     EXPECT_EQ(transition->path.front().front().p, before.front().p);
     for (const grasp::Grasp& grasp : transition->path) {
       EXPECT_EQ(FacesOf(grasp), FacesOf(before));
-      EXPECT_TRUE(grasp::IsForceClosure(grasp, object.wrench_frame(), criteria.half_angle));
+      EXPECT_TRUE(grasp::IsForceClosure(grasp, object.wrench_frame(), criteria.friction_angle));
     }
     const grasp::Grasp& last = transition->path.back();
     if (transition->path.size() > 1) ++moved;
     EXPECT_TRUE(
-        grasp::IsForceClosure(transition->after, object.wrench_frame(), criteria.half_angle));
+        grasp::IsForceClosure(transition->after, object.wrench_frame(), criteria.friction_angle));
     for (int k = 0; k < 4; ++k) {
       EXPECT_EQ(transition->after[k].p == last[k].p, k != leaving) << "one finger is switched";
       EXPECT_TRUE(space.CanMeet(last[k], transition->after[leaving]));

@@ -18,7 +18,7 @@ using testing::SizeIs;
 struct Scene {
   Scene(object::Polygon object, const plan::Plan& plan)
       : polygon(std::move(object)),
-        graph(polygon, plan.half_angle),
+        graph(polygon, plan.friction_angle),
         geometry(graph),
         track(TrackPlan(plan)),
         map(MapContactSpace(geometry, track)) {}
@@ -162,10 +162,10 @@ TEST(ContactSpaceMapTest, OnlyRingsThatThePlanUsesAreShown) {
   plan.steps.clear();
   // The wall between the outer ring and the hole, near the first vertex. Holes are clockwise.
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 23, 0.5)};
-  const auto located = [&](const plan::Plan& p) { return Scene(ring, p); };
-  EXPECT_THAT(located(plan).map.rings, ElementsAre(contour::RingIndex(0), contour::RingIndex(1)));
+  const auto projected = [&](const plan::Plan& p) { return Scene(ring, p); };
+  EXPECT_THAT(projected(plan).map.rings, ElementsAre(contour::RingIndex(0), contour::RingIndex(1)));
   plan.initial = {FingerAt(ring, 0, 0, 0.5), FingerAt(ring, 1, 6, 0.5)};
-  const Scene outer = located(plan);
+  const Scene outer = projected(plan);
   EXPECT_THAT(outer.map.rings, ElementsAre(contour::RingIndex(0)));
   EXPECT_LT(static_cast<int>(outer.map.sets.size()), outer.map.set_count);
 }

@@ -17,7 +17,7 @@ using testing::SizeIs;
 
 /// Return all switches of a plan.
 std::vector<ContactSwitch> SwitchesOf(const object::Polygon& polygon, const plan::Plan& plan) {
-  const contour::ContourGraph graph(polygon, plan.half_angle);
+  const contour::ContourGraph graph(polygon, plan.friction_angle);
   contour::SetGeometry geometry(graph);
   const std::vector<TrackEntry> track = TrackPlan(plan);
   std::vector<ContactSwitch> switches;
@@ -35,7 +35,7 @@ std::vector<ContactSwitch> ManySwitches() {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const planning::GraspChoice random = {planning::GraspChoice::Kind::kRandom, {}, "random"};
       planning::PlanRequest options;
-      options.criteria.half_angle = 0.45;
+      options.criteria.friction_angle = 0.45;
       options.seed = seed;
       if (seed % 2 == 0) options.objective = planning::Objective::kRegions;
       const planning::PlanResult result =

@@ -82,7 +82,7 @@ TEST(GraspDiagramTest, ConesOfAConcurrentGraspAreNoWiderThanItsNormalsSpan) {
     const GraspDiagram diagram = DescribeGrasp(triangle, MiddleOfTriangle(), Radians(friction));
     ASSERT_EQ(diagram.cones.size(), 3U);
     for (const DoubleCone& cone : diagram.cones) {
-      EXPECT_NEAR(Degrees(cone.half_angle), drawn, kClose);
+      EXPECT_NEAR(Degrees(cone.friction_angle), drawn, kClose);
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(GraspDiagramTest, ConesOfAConcurrentGraspAreNoWiderThanItsNormalsSpan) {
 TEST(GraspDiagramTest, TheFocusLiesInEveryConeAndInTheCell) {
   const GraspDiagram diagram = DescribeGrasp(MakeTriangle(), MiddleOfTriangle(), Radians(12));
   for (const DoubleCone& cone : diagram.cones) {
-    EXPECT_LT(AngleBetween2d(*diagram.focus - cone.apex, cone.axis), cone.half_angle);
+    EXPECT_LT(AngleBetween2d(*diagram.focus - cone.apex, cone.axis), cone.friction_angle);
   }
   EXPECT_NE(PartWith(diagram.focus_cell, *diagram.focus), nullptr);
   EXPECT_EQ(PartWith(diagram.focus_cell, Vector2d(3, 3)), nullptr);
@@ -141,7 +141,7 @@ TEST(GraspDiagramTest, AParallelGraspOnParallelEdgesHasTheWholeConeInCommon) {
   ASSERT_EQ(diagram.kind, DiagramKind::kParallel);
   ASSERT_EQ(diagram.cones.size(), 3U);
   for (const DoubleCone& cone : diagram.cones) {
-    EXPECT_NEAR(Degrees(cone.half_angle), 20, kClose);
+    EXPECT_NEAR(Degrees(cone.friction_angle), 20, kClose);
     EXPECT_NEAR(cone.axis.x(), 0, kClose);
   }
   EXPECT_GT(diagram.cones[0].axis.y(), 0);
@@ -161,7 +161,7 @@ TEST(GraspDiagramTest, ACommonConeIsNarrowerForInclinedEdges) {
   const GraspDiagram diagram = DescribeGrasp(wedge, grasp, Radians(20));
   ASSERT_EQ(diagram.kind, DiagramKind::kParallel);
   for (const DoubleCone& cone : diagram.cones) {
-    EXPECT_NEAR(Degrees(cone.half_angle), 15, kClose);
+    EXPECT_NEAR(Degrees(cone.friction_angle), 15, kClose);
     EXPECT_NEAR(Degrees(AngleBetween2d(cone.axis, Vector2d(0, cone.axis.y()))), 5, kClose);
   }
   EXPECT_EQ(DescribeGrasp(wedge, grasp, Radians(4.9)).kind, DiagramKind::kOther);
@@ -213,7 +213,7 @@ TEST(GraspDiagramTest, FourContactsShowTheirFrictionCones) {
       DescribeGrasp(MakeSquare(), OnSquare({{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}}), Radians(15));
   EXPECT_EQ(diagram.kind, DiagramKind::kOther);
   ASSERT_EQ(diagram.cones.size(), 4U);
-  for (const DoubleCone& cone : diagram.cones) EXPECT_EQ(cone.half_angle, Radians(15));
+  for (const DoubleCone& cone : diagram.cones) EXPECT_EQ(cone.friction_angle, Radians(15));
 }
 
 TEST(GraspDiagramTest, TheOrderOfContactsChangesNothingButTheOrderOfCones) {

@@ -95,9 +95,9 @@ TEST(PlanDiagramTest, CaptionsNameStepAndTypeOfGrasp) {
 TEST(PlanDiagramTest, ACaptionStatesConesNarrowerThanTheFriction) {
   plan::Plan plan = MakeTrianglePlan();
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));
-  plan.half_angle = Radians(30);  // exactly φ*
+  plan.friction_angle = Radians(30);  // exactly φ*
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption, Not(HasSubstr("φ")));
-  plan.half_angle = Radians(40);
+  plan.friction_angle = Radians(40);
   EXPECT_THAT(DescribePlan(MakeTriangle(), plan)[0].caption,
               HasSubstr("concurrent grasp; φ = 30° < θ = 40°"));
 }

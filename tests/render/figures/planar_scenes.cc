@@ -7,7 +7,7 @@ namespace regrasp::render {
 plan::Plan MakePlanarPlan(const plan::FingerGrasp& initial, std::vector<plan::Step> steps) {
   plan::Plan plan;
   plan.dimension = 2;
-  plan.half_angle = Radians(20);
+  plan.friction_angle = Radians(20);
   plan.fingers = 4;
   plan.initial = initial;
   plan.steps = std::move(steps);

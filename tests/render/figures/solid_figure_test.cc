@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "planner/base/number.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "render/figures/panel_sheet.h"
 #include "render/figures/planar_panel.h"
 #include "tests/fixtures/solids.h"
@@ -26,14 +26,14 @@ plan::FingerContact Hold(int finger, const Vector3d& p, const Vector3d& n) {
 plan::Plan MakePlan(const object::Polyhedron& cube) {
   plan::Plan plan;
   plan.dimension = 3;
-  plan.half_angle = Radians(20);
+  plan.friction_angle = Radians(20);
   plan.initial = {Hold(0, {0.03, 0, 0.01}, {-1, 0, 0}), Hold(1, {-0.03, 0, 0.01}, {1, 0, 0}),
                   Hold(2, {0, 0.03, 0}, {0, -1, 0}), Hold(3, {0, -0.03, 0}, {0, 1, 0})};
   plan::Switch change;
   change.place = {Hold(4, {0.01, 0.03, 0.01}, {0, -1, 0})};
   change.release = {FingerIndex(2)};
   plan.steps = {change};
-  return plan::LocatePlan(cube, plan);
+  return plan::ProjectPlan(cube, plan);
 }
 
 SolidPanels MakePanels(const SolidFigureOptions& options = {}) {
@@ -96,10 +96,10 @@ TEST(SolidFigureTest, APanelIsAsHighAsItNeedsAndNoHigher) {
     const object::Polyhedron box = MakeBox(size);
     plan::Plan plan;
     plan.dimension = 3;
-    plan.half_angle = Radians(20);
+    plan.friction_angle = Radians(20);
     plan.initial = {Hold(0, {size.x() / 2, 0, 0}, {-1, 0, 0})};
     const SolidFigureOptions view = {.view = ViewDirection{Radians(270), 0}};
-    return SolidPanels(box, plan::LocatePlan(box, plan), view).HeightFor(200);
+    return SolidPanels(box, plan::ProjectPlan(box, plan), view).HeightFor(200);
   };
   EXPECT_LT(height({1, 0.1, 0.1}), height({1, 0.1, 0.5}));
   EXPECT_DOUBLE_EQ(height({0.1, 0.1, 3}), 1.25 * 200);

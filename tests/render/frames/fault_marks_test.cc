@@ -241,8 +241,8 @@ TEST(FaultScene, NumbersStandOverTheMarks) {
   camera.width = camera.height = 480;
   const TextStyle style = {16, {}};
   FaultMarks twist{.heading = "", .fingers = {}};
-  twist.push = plan::FaultPush{.name = "a twist"};
-  twist.push->torque_Nm = Vector3d::UnitY();
+  twist.disturbance = plan::FaultDisturbance{.name = "a twist"};
+  twist.disturbance->torque_Nm = Vector3d::UnitY();
   const auto covered = [&](bool numbers_first) {
     const CairoImage alone(MakeImage(480, 480)), all(MakeImage(480, 480));
     const auto draw_marks = [&] {

@@ -15,7 +15,7 @@
 namespace regrasp::render {
 namespace frame_test {
 
-const double kHalfAngle = Radians(20);
+const double kFrictionAngle = Radians(20);
 
 FrameOptions Small(int supersampling = 1) { return {320, 240, supersampling}; }
 /// Return options for frames that are large enough for text.
@@ -23,7 +23,7 @@ FrameOptions Medium() { return {640, 480, 1}; }
 
 Image Draw(const object::Object& object, const std::vector<plan::Snapshot>& snapshots,
            std::size_t index, const FrameOptions& options, const std::string& caption = "") {
-  FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
+  FrameRenderer renderer(object, 1, kFrictionAngle, snapshots, options);
   return renderer.Render(snapshots[index], caption);
 }
 
@@ -104,7 +104,7 @@ TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
   const LongScene scene;
   FrameOptions options = Cropped();
   options.view.direction = ViewDirection{Radians(-90), 0};  // along the side of the box
-  FrameRenderer renderer(scene.box, 1, kHalfAngle, scene.snapshots, options);
+  FrameRenderer renderer(scene.box, 1, kFrictionAngle, scene.snapshots, options);
   const Image cropped = renderer.Render(scene.snapshots[0]);
   EXPECT_EQ(cropped.width, renderer.width());
   EXPECT_EQ(cropped.height, renderer.height());
@@ -132,7 +132,7 @@ TEST(FrameTest, CroppedFramesShowTheSameWithoutTheWhiteAroundIt) {
 
 TEST(FrameTest, AFullFrameIsNotCropped) {
   const object::Polyhedron cube = MakeCube(0.03);
-  FrameRenderer renderer(cube, 1, kHalfAngle, MakeCubeSequence(), Cropped());
+  FrameRenderer renderer(cube, 1, kFrictionAngle, MakeCubeSequence(), Cropped());
   EXPECT_EQ(renderer.height(), 480);
   EXPECT_GE(renderer.width(), 480);
 }
@@ -191,7 +191,7 @@ TEST(FrameTest, ShowsEveryHoldingFingerInItsColourAndNoFreeFinger) {
   for (int free = 0; free < 4; ++free) {
     plan::Snapshot without = snapshots[0];
     without.fingers[free].role = plan::FingerRole::kFree;
-    FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
+    FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Medium());
     const Color color = FingerColor(snapshots[0].fingers[free].finger);
     // Fingers behind the object are paler, but their numbers are not.
     constexpr int kClearlyThere = 20;  // pixels
@@ -210,7 +210,7 @@ TEST(FrameTest, GivesTheSameBytesTwice) {
 TEST(FrameTest, ACopyDrawsTheSameWithTheSameCamera) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
-  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small(2));
+  FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Small(2));
   FrameRenderer copy(renderer);
   for (const plan::Snapshot& snapshot : snapshots) {
     EXPECT_EQ(CountDifferent(copy.Render(snapshot, "a"), renderer.Render(snapshot, "a")), 0);
@@ -240,7 +240,7 @@ TEST(FrameTest, DisplayedGapsDoNotChangeTheCamera) {
 TEST(FrameTest, ChangesWithTheObjectPoseAndTheRoleOfAFinger) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
-  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Small());
+  FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Small());
   const Image still = renderer.Render(snapshots[1]);
   EXPECT_EQ(CountDifferent(still, renderer.Render(snapshots[1])), 0);
   plan::Snapshot turned = snapshots[1];
@@ -254,7 +254,7 @@ TEST(FrameTest, ChangesWithTheObjectPoseAndTheRoleOfAFinger) {
 TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
-  FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, Medium());
+  FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Medium());
   const Image without = renderer.Render(snapshots[0]);
   const Image with = renderer.Render(snapshots[0], "step 1/2");
   int left = 0;
@@ -279,8 +279,8 @@ TEST(FrameTest, IsIndependentOfTheObjectsSize) {
   for (const auto& t : cube.triangles()) soup.facets.push_back({t[0], t[1], t[2]});
   const object::Polyhedron large = object::Polyhedron::FromSoup(soup, "large cube");
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
-  FrameRenderer a(cube, 1, kHalfAngle, snapshots, Small());
-  FrameRenderer b(large, 1.0 / 1024, kHalfAngle, snapshots, Small());
+  FrameRenderer a(cube, 1, kFrictionAngle, snapshots, Small());
+  FrameRenderer b(large, 1.0 / 1024, kFrictionAngle, snapshots, Small());
   const int bytes = 3 * 320 * 240;
   EXPECT_LT(CountDifferent(a.Render(snapshots[0]), b.Render(snapshots[0])), bytes / 100);
 }
@@ -362,7 +362,7 @@ TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
       for (const double zoom : {1.0, 3.0}) {
         FrameOptions options = {width, height, 1};
         options.view.zoom = zoom;
-        FrameRenderer renderer(object, 1, kHalfAngle, snapshots, options);
+        FrameRenderer renderer(object, 1, kFrictionAngle, snapshots, options);
         for (const plan::Snapshot& snapshot : snapshots) {
           const int at_border = CountAtBorder(renderer.Render(snapshot, "caption"));
           if (zoom == 1) {
@@ -402,7 +402,7 @@ TEST(FrameTest, AFingerHiddenInOneViewHasAnotherViewOfTheSameSize) {
   const std::vector<plan::Snapshot> snapshots = MakePairsInsideARing();
   FrameOptions options = Medium();
   options.crop = true;
-  FrameRenderer renderer(ring, 1, kHalfAngle, snapshots, options);
+  FrameRenderer renderer(ring, 1, kFrictionAngle, snapshots, options);
   int own = 0;
   for (std::size_t i = 0; i < snapshots.size(); ++i) {
     const int index = static_cast<int>(i);
@@ -419,7 +419,7 @@ TEST(FrameTest, AFingerHiddenInOneViewHasAnotherViewOfTheSameSize) {
   EXPECT_LT(own, 36);
 
   options.view.direction = ViewDirection{Radians(30), Radians(28)};
-  const FrameRenderer given(ring, 1, kHalfAngle, snapshots, options);
+  const FrameRenderer given(ring, 1, kFrictionAngle, snapshots, options);
   for (std::size_t i = 0; i < snapshots.size(); ++i) {
     EXPECT_FALSE(given.HasOwnView(static_cast<int>(i)));
   }
@@ -437,7 +437,7 @@ TEST(FrameTest, AForceIsInsideTheFrameForEveryFingerDirection) {
   snapshot.fingers[0].force_W *= 10;
   FrameOptions options = Medium();
   options.view.direction = ViewDirection{0, 0};
-  FrameRenderer renderer(plate, 1, kHalfAngle, {snapshot}, options);
+  FrameRenderer renderer(plate, 1, kFrictionAngle, {snapshot}, options);
   EXPECT_EQ(CountAtBorder(renderer.Render(snapshot)), 0);
 }
 
@@ -451,7 +451,7 @@ TEST(FrameTest, FaultMarksAreInsideTheFrame) {
   FrameOptions options = Medium();
   options.view.direction = ViewDirection{Radians(60), Radians(20)};
   const auto at_border = [&] {
-    FrameRenderer renderer(cube, 1, kHalfAngle, snapshots, options);
+    FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, options);
     return CountAtBorder(renderer.Render(snapshots[0], "", &marks));
   };
   EXPECT_GT(at_border(), 0);

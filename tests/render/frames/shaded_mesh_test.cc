@@ -23,9 +23,9 @@ TEST(ShadedMeshTest, InvertedMeshesHaveTheOppositeVolumeAndNormals) {
   EXPECT_EQ(turned.normals[0][0], -cube.normals[0][0]);
 }
 
-TEST(ShadedMeshTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
-  const double half_angle = Radians(25), slant = 0.15;
-  const ShadedMesh wedge = MakeWedge(half_angle, slant);
+TEST(ShadedMeshTest, AWedgeIsAClosedPlateOfItsFrictionAngle) {
+  const double friction_angle = Radians(25), slant = 0.15;
+  const ShadedMesh wedge = MakeWedge(friction_angle, slant);
   Vector3d flux = Vector3d::Zero();
   double low = 1, high = 0;
   for (const auto& corners : wedge.triangles) {
@@ -35,25 +35,25 @@ TEST(ShadedMeshTest, AWedgeIsAClosedPlateOfItsHalfAngle) {
       low = std::min(low, p.y());
       high = std::max(high, p.y());
       if (p.z() == 0) continue;
-      EXPECT_NEAR(std::atan2(std::abs(p.x()), p.z()), half_angle, 1e-12);
+      EXPECT_NEAR(std::atan2(std::abs(p.x()), p.z()), friction_angle, 1e-12);
       EXPECT_NEAR(std::hypot(p.x(), p.z()), slant, 1e-12);
     }
   }
   EXPECT_LT(flux.norm(), 1e-15);
-  const double area = slant * slant * std::sin(half_angle) * std::cos(half_angle);
+  const double area = slant * slant * std::sin(friction_angle) * std::cos(friction_angle);
   EXPECT_GT(low, 0);
   EXPECT_NEAR(Volume(wedge), area * (high - low), 1e-15);
 }
 
-TEST(ShadedMeshTest, AConeHasItsHalfAngleAndOpensUpwards) {
-  const double half_angle = Radians(25);
-  const ShadedMesh cone = MakeCone(half_angle, 2);
+TEST(ShadedMeshTest, AConeHasItsFrictionAngleAndOpensUpwards) {
+  const double friction_angle = Radians(25);
+  const ShadedMesh cone = MakeCone(friction_angle, 2);
   int rim = 0;
   for (const auto& corners : cone.triangles) {
     for (const Vector3d& p : corners) {
       if (p.head<2>().norm() == 0) continue;
       EXPECT_NEAR(p.norm(), 2, 1e-12);
-      EXPECT_NEAR(std::atan2(p.head<2>().norm(), p.z()), half_angle, 1e-12);
+      EXPECT_NEAR(std::atan2(p.head<2>().norm(), p.z()), friction_angle, 1e-12);
       ++rim;
     }
   }

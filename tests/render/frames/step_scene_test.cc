@@ -8,7 +8,7 @@
 #include <assimp/Importer.hpp>
 
 #include "planner/base/number.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
@@ -21,10 +21,10 @@ plan::Plan HoldCube(const object::Polyhedron& cube, double scale) {
   plan::Plan plan;
   plan.dimension = 3;
   plan.scale = scale;
-  plan.half_angle = Radians(20);
+  plan.friction_angle = Radians(20);
   plan.initial = {{FingerIndex(0), {Vector3d(3, 0, 1), Vector3d(-1, 0, 0)}},
                   {FingerIndex(2), {Vector3d(-3, 0, 1), Vector3d(1, 0, 0)}}};
-  return plan::LocatePlan(cube, plan);
+  return plan::ProjectPlan(cube, plan);
 }
 
 TEST(StepSceneTest, HasTheObjectAndEachFingerInMetresInTheObjectsFrame) {

@@ -19,11 +19,11 @@ std::string FormatFacts(const Report& report) {
 TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
   Report report;
   report.object_file = "<cube>.obj";
-  report.half_angle = Radians(20);
+  report.friction_angle = Radians(20);
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>&lt;cube&gt;.obj, a solid</dd>"));
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>20.00° (μ = 0.364)</dd>"));
   EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Grasp force")));
-  report.settings.emplace().squeeze_N = 25;
+  report.settings.emplace().grasp_force_N = 25;
   report.settings->mass_kg = 2.5 / sim::kGravity;
   EXPECT_THAT(FormatFacts(report),
               HasSubstr("<dt>Grasp force</dt><dd>25 N, 10 times the weight: "));
@@ -31,11 +31,12 @@ TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
 
 TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
   Report report;
-  report.half_angle = Radians(20);
+  report.friction_angle = Radians(20);
   for (const double required_deg : {12.0, 17.0}) {
     ReportStep& step = report.steps.emplace_back();
     step.check.index = plan::EntryIndex(static_cast<int>(report.steps.size()) - 1);
-    step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+    step.check.required =
+        grasp::RequiredFrictionAngle{Radians(required_deg), Radians(required_deg)};
   }
   EXPECT_THAT(FormatFacts(report), HasSubstr("<dd>step 1, 3.00° margin</dd>"));
   // If a step failed, the margin of another step is not reported as the weakest.

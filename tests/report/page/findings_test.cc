@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/number.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 
 namespace regrasp::report {
 namespace findings_test {
@@ -14,17 +14,17 @@ using testing::Not;
 
 Report MakeReport() {
   Report report;
-  report.half_angle = Radians(20);
+  report.friction_angle = Radians(20);
   report.settings.emplace();
-  report.settings->shake = 0.01;
+  report.settings->disturbance_ratio = 0.01;
   for (int index : {0, 1}) {
     ReportStep& step = report.steps.emplace_back();
     step.check.index = plan::EntryIndex(index);
     step.weakest_finger = {FingerIndex(3), {Radians(12), true, std::nullopt}};
     step.replay.emplace();
     step.replay->adapted = sim::StepMotion();
-    step.replay->rest_margins = {{FingerIndex(2), Radians(4.5)}};
-    step.replay->shake_margins = {{FingerIndex(0), Radians(1.25)}};
+    step.replay->static_margins = {{FingerIndex(2), Radians(4.5)}};
+    step.replay->disturbance_margins = {{FingerIndex(0), Radians(1.25)}};
   }
   return report;
 }
@@ -67,8 +67,8 @@ TEST(FindingsTest, ADisagreementIsToldInWordsAndEscaped) {
 TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
   Report report = MakeReport();
   for (ReportStep& step : report.steps) {
-    for (const sim::Push& push : sim::PushDirections(3)) {
-      step.replay->stress.push_back({push, 0.25, 0.27});
+    for (const sim::Disturbance& disturbance : sim::DisturbanceDirections(3)) {
+      step.replay->resisted_wrench.push_back({disturbance, 0.25, 0.27});
     }
   }
   const std::string text = FormatFindings(report);

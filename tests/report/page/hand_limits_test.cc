@@ -23,7 +23,7 @@ Report HandReport(double first_torque, double second_torque) {
   Report report;
   report.object_file = "cube.obj";
   report.plan_file = "plan.json";
-  report.half_angle = Radians(20);
+  report.friction_angle = Radians(20);
   report.settings.emplace();
   report.settings->diameter_m = 0.06;
   report.settings->hand.emplace();
@@ -34,7 +34,7 @@ Report HandReport(double first_torque, double second_torque) {
   step.check.index = plan::EntryIndex(0);
   step.check.kind = "hold";
   step.check.force_closure = true;
-  step.check.required = grasp::RequiredHalfAngle{Radians(12), Radians(12)};
+  step.check.required = grasp::RequiredFrictionAngle{Radians(12), Radians(12)};
   step.replay.emplace();
   step.replay->hand.emplace();
   step.replay->hand->torque_Nm = 1.17;
@@ -43,7 +43,7 @@ Report HandReport(double first_torque, double second_torque) {
 
 std::string PageOf(const Report& report) {
   plan::Plan plan;
-  plan.half_angle = report.half_angle;
+  plan.friction_angle = report.friction_angle;
   return FormatReportHtml(report, plan, {}, {});
 }
 

@@ -27,18 +27,18 @@ struct Scene {
   Report report;
 
   explicit Scene(bool fails) {
-    plan.half_angle = Radians(20);
+    plan.friction_angle = Radians(20);
     for (int finger = 0; finger < 4; ++finger) plan.initial.push_back(MakeContact(finger));
     plan.steps = {plan::Switch{{MakeContact(4)}, {FingerIndex(0)}},
                   plan::Switch{{MakeContact(0)}, {FingerIndex(1)}}};
     report.object_file = "cube.obj";
     report.plan_file = "plan.json";
     report.planner = "roadmap";
-    report.half_angle = plan.half_angle;
+    report.friction_angle = plan.friction_angle;
     report.settings.emplace();
     report.settings->diameter_m = 0.06;
     report.settings->tolerance = 1e-3;
-    report.settings->shake = 0.01;
+    report.settings->disturbance_ratio = 0.01;
     for (int index = 0; index < 3; ++index) AddStep(index);
     if (fails) {
       report.steps[1].replay->reason = plan::Reason::kSlipped;
@@ -53,7 +53,7 @@ struct Scene {
     step.check.index = plan::EntryIndex(index);
     step.check.kind = index == 0 ? "hold" : "switch";
     step.check.force_closure = true;
-    step.check.required = grasp::RequiredHalfAngle{Radians(12.4), Radians(12.5)};
+    step.check.required = grasp::RequiredFrictionAngle{Radians(12.4), Radians(12.5)};
     step.replay.emplace();
     step.replay->index = step.check.index;
     step.replay->displacement_m = 4.14e-6;
@@ -213,10 +213,10 @@ TEST(StepMeasuresTest, MotionIsWhatTheToleranceIsAbout) {
 
 TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
   Scene scene(/*fails=*/false);
-  EXPECT_FALSE(MeasureSteps(scene.report)[1].rest_margin_deg);
-  scene.report.steps[1].replay->rest_margins = {{FingerIndex(0), Radians(11)},
-                                                {FingerIndex(3), Radians(8)}};
-  EXPECT_THAT(MeasureSteps(scene.report)[1].rest_margin_deg, Optional(DoubleNear(8, 1e-12)));
+  EXPECT_FALSE(MeasureSteps(scene.report)[1].static_margin_deg);
+  scene.report.steps[1].replay->static_margins = {{FingerIndex(0), Radians(11)},
+                                                  {FingerIndex(3), Radians(8)}};
+  EXPECT_THAT(MeasureSteps(scene.report)[1].static_margin_deg, Optional(DoubleNear(8, 1e-12)));
 }
 
 TEST(ReportPageTest, TheVerdictOfTrialsNamesTheirNumbers) {

@@ -18,8 +18,9 @@ std::string Format(const std::vector<Element>& elements) {
 /// Return a report of an initial grasp without replay.
 Report MakeReport() {
   Report report;
-  report.half_angle = Radians(20);
-  report.steps.emplace_back().check.required = grasp::RequiredHalfAngle{Radians(12), Radians(12.5)};
+  report.friction_angle = Radians(20);
+  report.steps.emplace_back().check.required =
+      grasp::RequiredFrictionAngle{Radians(12), Radians(12.5)};
   return report;
 }
 

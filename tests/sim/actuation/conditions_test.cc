@@ -54,7 +54,7 @@ TEST(ConditionsTest, OtherOptionsAreTheNominalOnes) {
   EXPECT_EQ(options.sensing, nominal.sensing);
   EXPECT_EQ(options.physics, nominal.physics);
   EXPECT_EQ(options.tolerance.length_m, 7e-3);
-  EXPECT_EQ(options.shake, 0);
+  EXPECT_EQ(options.disturbance_ratio, 0);
   EXPECT_EQ(options.freeze_s, 0);
   EXPECT_TRUE(options.to_end);
 }

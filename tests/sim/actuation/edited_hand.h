@@ -15,7 +15,7 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "planner/object/object.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
 
@@ -99,13 +99,14 @@ class EditedHandTest : public FolderTest {
     request.hand = &hand.hand;
     request.solid = &solid();
     request.scale = kScale;
-    request.criteria.half_angle = std::atan(0.5);
+    request.criteria.friction_angle = std::atan(0.5);
     request.criteria.min_quality = 0.06;
     request.turn = {Eigen::Vector3d::UnitZ(), turn};
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) throw std::runtime_error(found.message);
-    plan::Plan plan = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
-    plan.half_angle = std::atan(kMu);
+    plan::Plan plan =
+        plan::ProjectPlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
+    plan.friction_angle = std::atan(kMu);
     return plan;
   }
   [[nodiscard]] const object::Polyhedron& solid() const {

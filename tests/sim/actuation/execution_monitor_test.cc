@@ -40,7 +40,7 @@ class ExecutionMonitorTest : public HeldInHand {
   [[nodiscard]] StepReplay Replay(const HandTolerance& tolerance, double force_factor = 1) const {
     HandReplayOptions options;
     options.mass_kg = kMass;
-    options.shake = 0;
+    options.disturbance_ratio = 0;
     options.force_factor = force_factor;
     options.tolerance = tolerance;
     return ReplayHand(hand_, solid(), plan_, options).steps.back();

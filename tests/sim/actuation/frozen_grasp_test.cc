@@ -23,9 +23,9 @@ class FrozenGraspTest : public EditedHandTest {
     const kinematics::HandFile hand = HandWith({{"kp=\"2.0\"", "kp=\"" + stiffness + "\""}});
     HandReplayOptions options;
     options.mass_kg = kMass;
-    options.shake = 0;
+    options.disturbance_ratio = 0;
     options.freeze_s = freeze_s;
-    options.squeeze_N = grasp_force * kMass * 9.81;
+    options.grasp_force_N = grasp_force * kMass * 9.81;
     return ReplayHand(hand, solid(), PlanFor(hand), options, {}, 1).steps.back();
   }
 };

@@ -21,13 +21,13 @@ class GraspStiffnessTest : public HeldInHand {
   [[nodiscard]] double radius() const { return kScale * solid().diameter() / 2; }
 
   /// @param squeeze  grasp force, newtons; at least the weight's.
-  [[nodiscard]] std::vector<StiffFinger> Fingers(const HandWorld& world, double squeeze,
+  [[nodiscard]] std::vector<StiffFinger> Fingers(const HandWorld& world, double grasp_force,
                                                  double stiffness_factor = 1) const {
     const Eigen::Isometry3d pose = world.object_pose();
     const Vector3d down = -kMass * 9.81 * (pose.linear().transpose() * world.hand().up);
     const grasp::GraspForces forces =
         grasp::ComputeGraspForces(plan::ContactsOf(plan_.initial), solid().wrench_frame(),
-                                  std::atan(kMu), {down, Vector3d::Zero()}, squeeze);
+                                  std::atan(kMu), {down, Vector3d::Zero()}, grasp_force);
     std::vector<StiffFinger> fingers;
     for (std::size_t i = 0; i < plan_.initial.size(); ++i) {
       const plan::FingerContact& held = plan_.initial[i];
@@ -36,16 +36,16 @@ class GraspStiffnessTest : public HeldInHand {
       for (int drive = 0; drive < chain.drives; ++drive) {
         stiffness[drive] = stiffness_factor * world.servo(held.finger, drive).stiffness;
       }
-      fingers.push_back({&chain, world.posture(held.finger), stiffness,
+      fingers.push_back({&chain, world.configuration(held.finger), stiffness,
                          pose * (kScale * held.contact.p), pose.linear() * held.contact.n,
                          pose.linear() * forces.forces[i]});
     }
     return fingers;
   }
 
-  [[nodiscard]] GraspStiffness Stiffness(const HandWorld& world, double squeeze) const {
-    return ComputeGraspStiffness(Fingers(world, squeeze), world.object_pose() * world.centroid_O(),
-                                 radius());
+  [[nodiscard]] GraspStiffness Stiffness(const HandWorld& world, double grasp_force) const {
+    return ComputeGraspStiffness(Fingers(world, grasp_force),
+                                 world.object_pose() * world.centroid_O(), radius());
   }
 };
 
@@ -81,11 +81,11 @@ TEST_F(GraspStiffnessTest, FallsAsTheGraspForceGrowsUntilTheGraspIsUnstable) {
 TEST_F(GraspStiffnessTest, IsThatOfTheSimulation) {
   HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   world.Place(plan_.hand->initial);
-  constexpr double kSqueeze = 8;
+  constexpr double kGraspForce = 8;
   HandControl control(world, solid(), kScale,
                       {std::atan(kMu), kMass * 9.81, {.feedback = PoseFeedback::kNone}});
   control.SetFeedback(false);
-  Hold hold = {{}, kSqueeze};
+  Hold hold = {{}, kGraspForce};
   for (const plan::FingerContact& held : plan_.initial) {
     control.Attach(held.finger);
     hold.fingers.push_back(held.finger);
@@ -101,7 +101,7 @@ TEST_F(GraspStiffnessTest, IsThatOfTheSimulation) {
     world.Restore(state);
     return centre;
   };
-  const GraspStiffness stiffness = Stiffness(world, kSqueeze);
+  const GraspStiffness stiffness = Stiffness(world, kGraspForce);
   const Vector3d unloaded = rest(Vector3d::Zero());
   constexpr double kForce = 0.1;
   for (int axis = 0; axis < 3; ++axis) {

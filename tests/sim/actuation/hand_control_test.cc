@@ -39,10 +39,10 @@ TEST_F(HeldInHand, AHandoverGoesFromTheForcesBeforeToThoseAfter) {
 }
 
 TEST_F(HeldInHand, AShakePushesAndTwists) {
-  const auto shaken = [&](double shake) {
+  const auto shaken = [&](double disturbance_ratio) {
     HandReplayOptions options;
     options.mass_kg = kMass;
-    options.shake = shake;
+    options.disturbance_ratio = disturbance_ratio;
     return ReplayHand(hand_, solid(), plan_, options, {}, 1).steps.back();
   };
   EXPECT_EQ(shaken(0).reason, plan::Reason::kNone);
@@ -51,13 +51,13 @@ TEST_F(HeldInHand, AShakePushesAndTwists) {
   // before the torque.
   const StepReplay twisted = shaken(0.1);
   EXPECT_EQ(twisted.reason, plan::Reason::kObjectMoved);
-  ASSERT_TRUE(twisted.fault.push);
-  EXPECT_TRUE(twisted.fault.push->force_N.isZero());
-  EXPECT_FALSE(twisted.fault.push->torque_Nm.isZero());
+  ASSERT_TRUE(twisted.fault.disturbance);
+  EXPECT_TRUE(twisted.fault.disturbance->force_N.isZero());
+  EXPECT_FALSE(twisted.fault.disturbance->torque_Nm.isZero());
   const StepReplay pushed = shaken(0.3);
   EXPECT_EQ(pushed.reason, plan::Reason::kObjectMoved);
-  ASSERT_TRUE(pushed.fault.push);
-  EXPECT_FALSE(pushed.fault.push->force_N.isZero());
+  ASSERT_TRUE(pushed.fault.disturbance);
+  EXPECT_FALSE(pushed.fault.disturbance->force_N.isZero());
 }
 
 }  // namespace hand_control_test

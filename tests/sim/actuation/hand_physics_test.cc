@@ -139,7 +139,7 @@ class HandPhysicsWorldTest : public HeldInHand {
     HandWorld world(hand_, solid(), kScale, OptionsWith(physics));
     world.Place(plan_.hand->initial);
     Eigen::VectorXd torques = Eigen::VectorXd::Zero(4);
-    kinematics::Posture target = world.posture(kMovedFinger);
+    kinematics::JointConfiguration target = world.configuration(kMovedFinger);
     target[1] += offset;
     torques[1] = torque;
     world.Command(kMovedFinger, target, torques);
@@ -152,14 +152,14 @@ class HandPhysicsWorldTest : public HeldInHand {
     plan::HandState state = plan_.hand->initial;
     state.pose.translation().z() += 1;
     world.Place(state);
-    const double start = world.posture(kMovedFinger)[0];
+    const double start = world.configuration(kMovedFinger)[0];
     const auto steps = static_cast<int>(std::lround(0.1 / world.timestep()));
     for (int i = 0; i < steps; ++i) {
-      world.Command(kMovedFinger, world.posture(kMovedFinger),
+      world.Command(kMovedFinger, world.configuration(kMovedFinger),
                     torque * Eigen::VectorXd::Unit(4, 0));
       world.Step();
     }
-    return std::abs(world.posture(kMovedFinger)[0] - start);
+    return std::abs(world.configuration(kMovedFinger)[0] - start);
   }
 };
 

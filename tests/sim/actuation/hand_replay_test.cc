@@ -14,8 +14,8 @@
 #include "planner/base/number.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/grasp/required_half_angle.h"
-#include "planner/plan/locate.h"
+#include "planner/grasp/required_friction_angle.h"
+#include "planner/plan/projection.h"
 #include "sim/scene/scaling.h"
 #include "tests/fixtures/project_path.h"
 
@@ -61,14 +61,14 @@ const plan::Plan& GoodPlan() {
       request.hand = &Hand().hand;
       request.solid = &Cube();
       request.scale = kScale;
-      request.criteria.half_angle = std::atan(kMu);
+      request.criteria.friction_angle = std::atan(kMu);
       request.criteria.min_quality = 0.06;
       request.turn = {Vector3d::UnitZ(), Radians(150)};
       request.seed = seed;
       const gait::GaitResult found = gait::FindGait(request);
       if (!found.gait) continue;
       const plan::Plan made =
-          plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+          plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
       const bool switches = std::ranges::any_of(made.steps, [](const plan::Step& step) {
         return std::holds_alternative<plan::Switch>(step);
       });
@@ -111,7 +111,8 @@ TEST(HandReplayTest, AtRestFingersPushAsHardAsIsPlannedAlsoAfterSwitches) {
     for (const plan::FingerState& finger : step.snapshot.fingers) {
       normal += finger.force_W.dot(finger.normal_W);
     }
-    EXPECT_NEAR(normal, result.settings.squeeze_N, 0.03 * result.settings.squeeze_N) << step.index;
+    EXPECT_NEAR(normal, result.settings.grasp_force_N, 0.03 * result.settings.grasp_force_N)
+        << step.index;
   }
 }
 
@@ -127,12 +128,12 @@ TEST(HandReplayTest, TheSamePlanGivesTheSameBits) {
 }
 
 /// Return the friction angle that the weakest static grasp of a plan requires.
-double NeededHalfAngle(const plan::Plan& plan) {
+double NeededFrictionAngle(const plan::Plan& plan) {
   plan::FingerGrasp holding = plan.initial;
   double most = 0;
   const auto look = [&] {
     const auto required =
-        grasp::ComputeRequiredHalfAngle(plan::ContactsOf(holding), Cube().wrench_frame());
+        grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(holding), Cube().wrench_frame());
     most = std::max(most, required->upper);
   };
   look();
@@ -145,7 +146,7 @@ double NeededHalfAngle(const plan::Plan& plan) {
 
 TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
   HandReplayOptions options = Options();
-  options.friction_factor = 0.9 * std::tan(NeededHalfAngle(GoodPlan())) / kMu;
+  options.friction_factor = 0.9 * std::tan(NeededFrictionAngle(GoodPlan())) / kMu;
   ASSERT_LT(options.friction_factor, 1);
   const ReplayResult result = ReplayOf(GoodPlan(), options);
   EXPECT_THAT(ReasonOf(result), testing::AnyOf(Reason::kSlipped, Reason::kObjectMoved,
@@ -154,18 +155,18 @@ TEST(HandReplayTest, NothingHoldsAtNineTenthsOfTheFrictionThatIsNeeded) {
 }
 
 TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
-  const double squeeze = ReplayOf(GoodPlan()).settings.squeeze_N;
+  const double grasp_force = ReplayOf(GoodPlan()).settings.grasp_force_N;
   HandReplayOptions options = Options();
   // The faces are vertical, so friction supports at most μ times the grasp force: 20 % too much.
-  options.mass_factor = 1.2 * kMu * squeeze / (*options.mass_kg * kGravity);
+  options.mass_factor = 1.2 * kMu * grasp_force / (*options.mass_kg * kGravity);
   EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
 }
 
 TEST(HandReplayTest, ActuatorsOfHalfTheForceStandAtTheirLimits) {
   HandReplayOptions options = Options();
   // First the torques are close to the limits. Then half of the force limit is missing.
-  options.squeeze_N = 1.7 * ReplayOf(GoodPlan()).settings.squeeze_N;
-  options.shake = 0;
+  options.grasp_force_N = 1.7 * ReplayOf(GoodPlan()).settings.grasp_force_N;
+  options.disturbance_ratio = 0;
   double share = 0;
   for (const StepReplay& step : ReplayOf(GoodPlan(), options).steps) {
     share = std::max(share, step.hand->torque_share);
@@ -218,7 +219,7 @@ plan::Plan SlidingPlan(double way) {
   request.hand = &FourFingers().hand;
   request.solid = &Cube();
   request.scale = kScale;
-  request.criteria.half_angle = std::atan(kMu);
+  request.criteria.friction_angle = std::atan(kMu);
   request.seed = 1;
   request.robustness = gait::RobustnessLevel::kNone;  // required for plans without slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
@@ -228,7 +229,7 @@ plan::Plan SlidingPlan(double way) {
   for (const Vector3d& n :
        {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)}) {
     const Vector3d side = Vector3d::UnitZ().cross(n);
-    grasp.push_back(plan::LocateContact(Cube(), {-half * n - 0.5 * way * side, n, {}}).contact);
+    grasp.push_back(plan::ProjectContact(Cube(), {-half * n - 0.5 * way * side, n, {}}).contact);
   }
   request.start_grasp = grasp;
   grasp[0].p += way * Vector3d::UnitZ().cross(grasp[0].n);
@@ -236,7 +237,7 @@ plan::Plan SlidingPlan(double way) {
   const gait::GaitResult found = gait::FindGait(request);
   EXPECT_TRUE(found.gait) << found.message;
   if (!found.gait) return {};
-  return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+  return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
 }
 
 plan::Align& FirstAlign(plan::Plan& plan) {
@@ -369,7 +370,7 @@ TEST(HandReplayTest, AFailureTellsWhereHandAndObjectWere) {
 
 /// Expect bitwise equal results.
 void ExpectSame(const ReplayResult& a, const ReplayResult& b) {
-  EXPECT_EQ(a.settings.squeeze_N, b.settings.squeeze_N);
+  EXPECT_EQ(a.settings.grasp_force_N, b.settings.grasp_force_N);
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     SCOPED_TRACE(i);
@@ -398,7 +399,7 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   ASSERT_NE(last_move, nullptr);
   for (plan::HandState& state : last_move->path) state.pose.translation().x() += 5e-3;
   plan::Plan slippery = good;
-  slippery.half_angle = std::atan(0.05);
+  slippery.friction_angle = std::atan(0.05);
   HandReplayOptions options = Options();
   HandReplays replays(Hand(), Cube(), options);
   std::vector<Reason> reasons;
@@ -416,7 +417,7 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
 
 TEST(HandReplaysTest, WithoutAShakeTheyGiveTheSameToo) {
   HandReplayOptions options = Options();
-  options.shake = 0;
+  options.disturbance_ratio = 0;
   HandReplays replays(Hand(), Cube(), options);
   plan::Plan begun = GoodPlan();
   begun.steps.pop_back();

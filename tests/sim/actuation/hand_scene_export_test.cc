@@ -9,7 +9,7 @@
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/mujoco/handles.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_world.h"
 #include "sim/scene/scaling.h"
@@ -37,13 +37,13 @@ TEST_P(HandSceneExportTest, StockMuJoCoLoadsItAndTheHandHoldsTheObjectAtEveryRes
   request.hand = &hand.hand;
   request.solid = &solid;
   request.scale = 0.8333;
-  request.criteria.half_angle = std::atan(0.5);
+  request.criteria.friction_angle = std::atan(0.5);
   request.criteria.min_quality = 0.06;
   request.turn = {Eigen::Vector3d::UnitZ(), 0.5};
   const gait::GaitResult found = gait::FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
-  plan::Plan plan = plan::LocatePlan(solid, gait::PlanOf(*found.gait, request, found.contacts));
-  plan.half_angle = std::atan(0.8);
+  plan::Plan plan = plan::ProjectPlan(solid, gait::PlanOf(*found.gait, request, found.contacts));
+  plan.friction_angle = std::atan(0.8);
 
   std::vector<SceneKey> keys;
   HandReplayOptions options;

@@ -40,8 +40,8 @@ class HandSensorsTest : public HeldInHand {
     return arrived;
   }
 
-  static constexpr HandSensing kExact{.pose_delay_s = 0.05, .pose_rate_Hz = 20,
-                                      .pose_noise_m = 0, .pose_noise_rad = 0};
+  static constexpr HandSensing kExact{
+      .pose_delay_s = 0.05, .pose_rate_Hz = 20, .pose_noise_m = 0, .pose_noise_rad = 0};
 };
 
 TEST_F(HandSensorsTest, MeasurementsArriveAtTheirRateAfterTheDelay) {

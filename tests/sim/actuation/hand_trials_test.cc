@@ -4,7 +4,7 @@
 
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/hand_replay.h"
 #include "tests/fixtures/project_path.h"
 
@@ -17,13 +17,13 @@ class HandTrialsTest : public testing::Test {
     request_.hand = &hand_.hand;
     request_.solid = &solid();
     request_.scale = 0.8333;
-    request_.criteria.half_angle = std::atan(0.5);
+    request_.criteria.friction_angle = std::atan(0.5);
     request_.criteria.min_quality = 0.06;
     request_.turn = {Eigen::Vector3d::UnitZ(), 0.3};
     const gait::GaitResult found = gait::FindGait(request_);
     if (!found.gait) throw std::runtime_error(found.message);
-    plan_ = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request_, found.contacts));
-    plan_.half_angle = std::atan(0.8);
+    plan_ = plan::ProjectPlan(solid(), gait::PlanOf(*found.gait, request_, found.contacts));
+    plan_.friction_angle = std::atan(0.8);
     options_.mass_kg = 0.125;
   }
   [[nodiscard]] const object::Polyhedron& solid() const {

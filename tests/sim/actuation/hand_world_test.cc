@@ -178,7 +178,7 @@ TEST_F(HandWorldTest, WideRangesOfControlsChangeNothing) {
   const ReplayResult a = ReplayHand(plain, solid(), plan, Options());
   const ReplayResult b = ReplayHand(HandWith(WithControlRanges(wide)), solid(), plan, Options());
   ASSERT_EQ(a.steps.size(), b.steps.size());
-  EXPECT_EQ(a.settings.squeeze_N, b.settings.squeeze_N);
+  EXPECT_EQ(a.settings.grasp_force_N, b.settings.grasp_force_N);
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     EXPECT_EQ(b.steps[i].reason, Reason::kNone) << b.steps[i].detail;
     EXPECT_EQ(a.steps[i].displacement_m, b.steps[i].displacement_m);

@@ -9,7 +9,7 @@
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::sim {
@@ -22,13 +22,13 @@ class HeldInHand : public testing::Test {
     request.hand = &hand_.hand;
     request.solid = &solid();
     request.scale = kScale;
-    request.criteria.half_angle = std::atan(0.5);
+    request.criteria.friction_angle = std::atan(0.5);
     request.criteria.min_quality = 0.06;
     request.turn = {Eigen::Vector3d::UnitZ(), 0.3};
     const gait::GaitResult found = gait::FindGait(request);
     if (!found.gait) throw std::runtime_error(found.message);
-    plan_ = plan::LocatePlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
-    plan_.half_angle = std::atan(kMu);
+    plan_ = plan::ProjectPlan(solid(), gait::PlanOf(*found.gait, request, found.contacts));
+    plan_.friction_angle = std::atan(kMu);
   }
   [[nodiscard]] const object::Polyhedron& solid() const {
     return dynamic_cast<const object::Polyhedron&>(*cube_.object);

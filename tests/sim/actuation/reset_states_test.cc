@@ -18,7 +18,7 @@
 namespace regrasp::sim {
 namespace reset_states_test {
 
-constexpr int kMostTried = 40;
+constexpr int kMostSimulated = 40;
 
 class ResetStatesTest : public FolderTest {
  protected:
@@ -26,9 +26,9 @@ class ResetStatesTest : public FolderTest {
     request_.hand = &hand_.hand;
     request_.solid = &solid();
     request_.scale = 0.8333;
-    options_.half_angle = std::atan(0.8);
+    options_.friction_angle = std::atan(0.8);
     options_.mass_kg = 0.125;
-    request_.criteria.half_angle = options_.half_angle;
+    request_.criteria.friction_angle = options_.friction_angle;
   }
   [[nodiscard]] const object::Polyhedron& solid() const {
     return dynamic_cast<const object::Polyhedron&>(*cube_.object);
@@ -43,9 +43,10 @@ class ResetStatesTest : public FolderTest {
     };
   }
   [[nodiscard]] DrawnStates Draw(int count, std::uint64_t seed, int jobs) const {
-    return DrawResetStates(hand_, solid(), request_.scale, options_,
-                           {.count = count, .seed = seed, .most_tried = kMostTried, .jobs = jobs},
-                           [this] { return MakeDraw(20'000); });
+    return DrawResetStates(
+        hand_, solid(), request_.scale, options_,
+        {.count = count, .seed = seed, .most_simulated = kMostSimulated, .jobs = jobs},
+        [this] { return MakeDraw(20'000); });
   }
   [[nodiscard]] std::string Bytes(const DrawnStates& drawn) const {
     return FormatResetStates(drawn, hand_.hand, options_, {"cube.obj", cube_.sha256, 1, 0});

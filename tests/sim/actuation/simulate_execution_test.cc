@@ -26,7 +26,7 @@ class ExecutionSimulatorTest : public FolderTest {
   planning::PlanRequest Turning(double degrees) const {
     planning::PlanRequest request;
     request.object = &cube_;
-    request.criteria.half_angle = std::atan(0.8);
+    request.criteria.friction_angle = std::atan(0.8);
     gait::AskInHand({.hand = &hand_.hand,
                      .scale = 0.8333,
                      .turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)},
@@ -55,7 +55,7 @@ TEST_F(ExecutionSimulatorTest, PlansThatThePlannerTriedAreCarriedOutAndWithLittl
   EXPECT_EQ(carried->steps, std::ssize(found.plan->steps));
   EXPECT_EQ(carried->reason, plan::Reason::kNone);
   plan::Plan slippery = *found.plan;
-  slippery.half_angle = std::atan(0.05);
+  slippery.friction_angle = std::atan(0.05);
   const auto slipped = simulate(slippery, {});
   ASSERT_TRUE(slipped);
   EXPECT_FALSE(slipped->is_whole);
@@ -87,14 +87,15 @@ TEST_F(ExecutionSimulatorTest, AtItsDeadlineATrialEndsAndLaterGoesOnFromThere) {
   ASSERT_TRUE(whole);
   EXPECT_TRUE(whole->is_whole);
   EXPECT_FALSE(whole->is_cut_short);
-  EXPECT_EQ(whole->spare, ExecutionSimulator(hand_, cube_)(*found.plan, {})->spare);
+  EXPECT_EQ(whole->tolerance_margin,
+            ExecutionSimulator(hand_, cube_)(*found.plan, {})->tolerance_margin);
 }
 
 TEST_F(ExecutionSimulatorTest, SeveralThreadsGetWhatOneGets) {
   const planning::PlanResult found = planning::Solve(planner_, Turning(90));
   ASSERT_TRUE(found.plan) << found.message;
   plan::Plan slippery = *found.plan;
-  slippery.half_angle = std::atan(0.05);
+  slippery.friction_angle = std::atan(0.05);
   const std::vector<const plan::Plan*> plans = {&*found.plan, &slippery, &*found.plan, &slippery};
   const auto together = ExecutionSimulator(hand_, cube_);
   std::vector<std::optional<planning::ExecutionResult>> carried(plans.size());
@@ -106,7 +107,7 @@ TEST_F(ExecutionSimulatorTest, SeveralThreadsGetWhatOneGets) {
     ASSERT_TRUE(alone && carried[i]);
     EXPECT_EQ(carried[i]->steps, alone->steps);
     EXPECT_EQ(carried[i]->is_whole, alone->is_whole);
-    EXPECT_EQ(carried[i]->spare, alone->spare);
+    EXPECT_EQ(carried[i]->tolerance_margin, alone->tolerance_margin);
   }
 }
 
@@ -153,16 +154,16 @@ TEST_F(ExecutionSimulatorTest, APlanThatDoesNotExecuteIsNoPlanIfRobustnessIsRequ
 TEST_F(ExecutionSimulatorTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFirst) {
   planning::PlanRequest request = Turning(90);
   const auto simulate = ExecutionSimulator(hand_, cube_);
-  const auto spare = [&] {
+  const auto tolerance_margin = [&] {
     const planning::PlanResult found = planning::Solve(planner_, request);
     EXPECT_TRUE(found.plan) << found.message;
     const auto carried = simulate(*found.plan, {});
     EXPECT_TRUE(carried && carried->is_whole);
-    return carried->spare;
+    return carried->tolerance_margin;
   };
-  const double first = spare();
+  const double first = tolerance_margin();
   request.objective = planning::Objective::kMargin;
-  const double most = spare();
+  const double most = tolerance_margin();
   EXPECT_GT(first, 0);
   EXPECT_GT(most, first);
   EXPECT_LT(most, 1);

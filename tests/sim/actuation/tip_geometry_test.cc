@@ -14,7 +14,7 @@
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/mujoco_model.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/hand_world.h"
 #include "tests/fixtures/project_path.h"
@@ -74,12 +74,12 @@ const plan::Plan& Turn() {
     request.hand = &Ring().hand;
     request.solid = &Cube();
     request.scale = kScale;
-    request.criteria.half_angle = std::atan(kMu);
+    request.criteria.friction_angle = std::atan(kMu);
     request.criteria.min_quality = 0.06;
     request.turn = {Vector3d::UnitZ(), 0.5};
     const gait::GaitResult found = gait::FindGait(request);
     EXPECT_TRUE(found.gait) << found.message;
-    return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+    return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
   }();
   return plan;
 }

@@ -82,9 +82,9 @@ plan::Align WalkBoundary(const object::Polygon& polygon, const std::vector<Walk>
 }
 
 plan::Plan MakeWalkPlan(const object::Polygon& polygon, const std::vector<Walk>& walks,
-                        double half_angle_deg) {
+                        double friction_angle_deg) {
   plan::Align align = WalkBoundary(polygon, walks);
-  plan::Plan plan = MakePlanarPlan(align.waypoints.front(), half_angle_deg, 3);
+  plan::Plan plan = MakePlanarPlan(align.waypoints.front(), friction_angle_deg, 3);
   plan.goal = plan::ContactsOf(align.waypoints.back());
   plan.steps = {std::move(align)};
   return plan;

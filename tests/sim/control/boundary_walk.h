@@ -23,7 +23,7 @@ struct Walk {
 
 /// Return a plan for a hand of three fingers, two of which hold the object and slide.
 [[nodiscard]] plan::Plan MakeWalkPlan(const object::Polygon& polygon,
-                                      const std::vector<Walk>& walks, double half_angle_deg);
+                                      const std::vector<Walk>& walks, double friction_angle_deg);
 
 /// Return the number of turns at vertices in a sliding step.
 [[nodiscard]] int CountTurns(const plan::Align& align);

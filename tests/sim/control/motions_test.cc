@@ -53,7 +53,7 @@ TEST(RetractFingersTest, AFingerThatLeftStopsNothing) {
   const auto press = [&] {
     WorldFinger& pressing = world.fingers()[finger];
     pressing.anchor_S = world.TipAt_S(contact, -1e-6 * world.settings().diameter_m);
-    pressing.force_S = 0.1 * world.settings().squeeze_N * (world.X_SB().linear() * contact.n);
+    pressing.force_S = 0.1 * world.settings().grasp_force_N * (world.X_SB().linear() * contact.n);
     world.engine().PlaceTip(finger, pressing.anchor_S);
     world.Step();
     return world.engine().tip_force(finger).force.norm();

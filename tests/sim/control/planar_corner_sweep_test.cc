@@ -24,8 +24,8 @@ constexpr double kTooLittle = 0.9;
 /// Sampler of plans with two-finger grasps of an outline, for a hand of three fingers.
 class Dice {
  public:
-  Dice(const object::Polygon& polygon, double half_angle_deg, std::mt19937& random)
-      : polygon_(polygon), half_angle_deg_(half_angle_deg), random_(random) {}
+  Dice(const object::Polygon& polygon, double friction_angle_deg, std::mt19937& random)
+      : polygon_(polygon), friction_angle_deg_(friction_angle_deg), random_(random) {}
 
   [[nodiscard]] double Between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
@@ -37,9 +37,9 @@ class Dice {
   }
 
   [[nodiscard]] bool IsGood(const grasp::Grasp& grasp) const {
-    const double half_angle = Radians(half_angle_deg_);
-    return grasp::IsForceClosure(grasp, polygon_.wrench_frame(), half_angle) &&
-           grasp::QualityAtLeast(grasp, polygon_.wrench_frame(), half_angle, kLeastQuality);
+    const double friction_angle = Radians(friction_angle_deg_);
+    return grasp::IsForceClosure(grasp, polygon_.wrench_frame(), friction_angle) &&
+           grasp::QualityAtLeast(grasp, polygon_.wrench_frame(), friction_angle, kLeastQuality);
   }
 
   /// Draw a walk of both fingers, bisected until it is force closure throughout and ends in a good
@@ -52,7 +52,7 @@ class Dice {
     for (int i = 0; i < kHalvings; ++i, length /= 2) {
       const plan::Plan plan = MakeWalkPlan(
           polygon_, {WalkOf(0, (*start)[0], length), WalkOf(1, (*start)[1], other * length)},
-          half_angle_deg_);
+          friction_angle_deg_);
       if (IsGood(plan.goal) && plan::CheckPlan(polygon_, plan).passed()) return plan;
     }
     return std::nullopt;
@@ -62,7 +62,7 @@ class Dice {
   [[nodiscard]] std::optional<plan::Plan> DrawSwitches(int switches) {
     const std::optional<grasp::Grasp> start = DrawGrasp();
     if (!start) return std::nullopt;
-    plan::Plan plan = MakePlanarPlan(plan::FingersInOrder(*start), half_angle_deg_, 3);
+    plan::Plan plan = MakePlanarPlan(plan::FingersInOrder(*start), friction_angle_deg_, 3);
     plan::FingerGrasp held = plan.initial;
     for (int i = 0; i < switches; ++i) {
       const FingerIndex free(3 - held[0].finger - held[1].finger);
@@ -99,7 +99,7 @@ class Dice {
   }
 
   const object::Polygon& polygon_;
-  double half_angle_deg_;
+  double friction_angle_deg_;
   std::mt19937& random_;
 };
 
@@ -114,7 +114,7 @@ struct Tally {
 void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally& tally) {
   const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
   ASSERT_TRUE(check.passed());
-  const ReplayResult result = ReplayPlan(polygon, check.located, {});
+  const ReplayResult result = ReplayPlan(polygon, check.projected, {});
   for (const StepReplay& step : result.steps) {
     ASSERT_EQ(step.reason, plan::Reason::kNone) << "step " << step.index << ": " << step.detail;
     EXPECT_NE(step.align_mode, AlignMode::kSlid);
@@ -123,8 +123,8 @@ void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally
   double critical = 0;
   for (const plan::StepCheck& step : check.steps)
     critical = std::max(critical, step.required->lower);
-  plan::Plan weak = check.located;
-  weak.half_angle = std::atan(kTooLittle * std::tan(critical));
+  plan::Plan weak = check.projected;
+  weak.friction_angle = std::atan(kTooLittle * std::tan(critical));
   tally.refuted += ReplayPlan(polygon, weak, {}).steps.back().reason != plan::Reason::kNone;
   for (const plan::Step& step : plan.steps) {
     if (const auto* align = std::get_if<plan::Align>(&step)) tally.turns += CountTurns(*align);
@@ -134,17 +134,18 @@ void MotionMonitor(const object::Polygon& polygon, const plan::Plan& plan, Tally
 }
 
 constexpr int kEdges[] = {60, 128, 300};
-constexpr double kHalfAngles[] = {10, 15, 20};
+constexpr double kFrictionAngles[] = {10, 15, 20};
 
 TEST(PlanarCornerSweep, RandomWalksPassAndFailBelowTheirCriticalFriction) {
   std::mt19937 random(kSeed);
   Tally tally;
   for (const int edges : kEdges) {
-    for (const double half_angle_deg : kHalfAngles) {
+    for (const double friction_angle_deg : kFrictionAngles) {
       const object::Polygon outline = DrawOutline(edges, random);
-      Dice dice(outline, half_angle_deg, random);
+      Dice dice(outline, friction_angle_deg, random);
       for (int i = 0; i < 5; ++i) {
-        SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
+        SCOPED_TRACE(testing::Message()
+                     << edges << " edges, " << friction_angle_deg << " deg, " << i);
         const std::optional<plan::Plan> plan = dice.DrawWalk();
         if (plan) MotionMonitor(outline, *plan, tally);
       }
@@ -163,11 +164,12 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
   std::mt19937 random(kSeed);
   Tally tally;
   for (const int edges : kEdges) {
-    for (const double half_angle_deg : kHalfAngles) {
+    for (const double friction_angle_deg : kFrictionAngles) {
       const object::Polygon outline = DrawOutline(edges, random);
-      Dice dice(outline, half_angle_deg, random);
+      Dice dice(outline, friction_angle_deg, random);
       for (int i = 0; i < 3; ++i) {
-        SCOPED_TRACE(testing::Message() << edges << " edges, " << half_angle_deg << " deg, " << i);
+        SCOPED_TRACE(testing::Message()
+                     << edges << " edges, " << friction_angle_deg << " deg, " << i);
         const std::optional<plan::Plan> plan = dice.DrawSwitches(kSwitches);
         if (plan) MotionMonitor(outline, *plan, tally);
       }

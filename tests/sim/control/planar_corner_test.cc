@@ -15,7 +15,7 @@ constexpr double kGood = 1e-4;
 /// Return the number of moves of a script, each of two finger switches.
 int CountMoves(const object::Polygon& polygon, const plan::Plan& plan) {
   const AlignLimits limits{
-      plan.half_angle, {FingerIndex(2)}, 1e-3 * polygon.diameter(), 1e-4 * polygon.diameter()};
+      plan.friction_angle, {FingerIndex(2)}, 1e-3 * polygon.diameter(), 1e-4 * polygon.diameter()};
   return static_cast<int>(
       WriteAlignScript(polygon, std::get<plan::Align>(plan.steps.front()), limits).moves.size());
 }
@@ -29,7 +29,7 @@ void ExpectPasses(const object::Polygon& polygon, const plan::Plan& plan, int le
   EXPECT_LE(CountMoves(polygon, plan), most_moves);
   const plan::PlanCheck check = plan::CheckPlan(polygon, plan);
   ASSERT_TRUE(check.passed()) << check.steps.back().detail;
-  const ReplayResult result = ReplayPlan(polygon, check.located, {});
+  const ReplayResult result = ReplayPlan(polygon, check.projected, {});
   ASSERT_EQ(result.steps.size(), 2u) << result.steps.back().detail;
   const StepReplay& step = result.steps[1];
   EXPECT_EQ(step.reason, plan::Reason::kNone) << step.detail;
@@ -167,14 +167,14 @@ TEST(PlanarCorner, AnAlignThatLeavesForceClosureOnTheWayFailsInCheckAndReplay) {
   plan::Align ahead = WalkBoundary(disc, {{0, 0, 0.5, 8 * side}, {1, 30, 0.5, 0}});
   const plan::Align after = WalkBoundary(disc, {{0, 8, 0.5, 0}, {1, 30, 0.5, 8 * side}});
   ahead.waypoints.insert(ahead.waypoints.end(), after.waypoints.begin() + 1, after.waypoints.end());
-  for (const auto& [half_angle, passes] : {std::pair{30.0, true}, {20.0, false}}) {
-    SCOPED_TRACE(half_angle);
-    plan::Plan plan = MakePlanarPlan(ahead.waypoints.front(), half_angle, 3);
+  for (const auto& [friction_angle, passes] : {std::pair{30.0, true}, {20.0, false}}) {
+    SCOPED_TRACE(friction_angle);
+    plan::Plan plan = MakePlanarPlan(ahead.waypoints.front(), friction_angle, 3);
     plan.steps = {ahead};
     plan.goal = plan::ContactsOf(ahead.waypoints.back());
     const plan::PlanCheck check = plan::CheckPlan(disc, plan);
     EXPECT_EQ(check.passed(), passes);
-    const ReplayResult result = ReplayPlan(disc, check.located, {});
+    const ReplayResult result = ReplayPlan(disc, check.projected, {});
     ASSERT_EQ(result.steps.size(), 2u);
     EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
     EXPECT_EQ(result.steps[1].reason == plan::Reason::kNone, passes) << result.steps[1].detail;
@@ -189,8 +189,8 @@ TEST(PlanarCorner, AWalkBelowTheFrictionThatItNeedsFailsInTheReplay) {
   const plan::PlanCheck check = plan::CheckPlan(gear, plan);
   ASSERT_TRUE(check.passed());
   const double needed = check.steps[1].required->upper;
-  plan::Plan weak = check.located;
-  weak.half_angle = std::atan(0.9 * std::tan(needed));
+  plan::Plan weak = check.projected;
+  weak.friction_angle = std::atan(0.9 * std::tan(needed));
   EXPECT_NE(ReplayPlan(gear, weak, {}).steps.back().reason, plan::Reason::kNone);
 }
 

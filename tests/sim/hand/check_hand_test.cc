@@ -17,8 +17,8 @@
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
-#include "planner/plan/locate.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/projection.h"
 #include "sim/hand/gap.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
@@ -42,7 +42,7 @@ gait::GaitRequest RequestForTheCube() {
   request.hand = &hand;
   request.solid = &Cube();
   request.scale = 0.8;
-  request.criteria.half_angle = std::atan(0.8);
+  request.criteria.friction_angle = std::atan(0.8);
   return request;
 }
 
@@ -54,7 +54,7 @@ const plan::Plan& GoodPlan() {
     request.seed = 1;
     const gait::GaitResult found = gait::FindGait(request);
     EXPECT_TRUE(found.gait) << found.message;
-    return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+    return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
   }();
   return plan;
 }
@@ -81,7 +81,7 @@ plan::Plan Regrasp(std::uint64_t seed) {
   request.goal_pose = request.start_pose;
   const gait::GaitResult found = gait::FindGait(request);
   if (!found.gait) return {};
-  return plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+  return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
 }
 
 /// Return true if a slide of the plan has a first segment long enough to require intermediate
@@ -168,7 +168,7 @@ TEST_F(CoupledHandTest, APlanOfTheSearchKeepsTheCouplings) {
   const gait::GaitResult found = gait::FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   const plan::Plan plan =
-      plan::LocatePlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
+      plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
   for (const std::vector<double>& joints : plan.hand->initial.joints) {
     EXPECT_NEAR(joints[3], 0.2 + 1.06 * joints[2], 1e-9);
   }
@@ -205,7 +205,7 @@ TEST(CheckHandTest, AFileReadAgainPassesToo) {
   for (plan::Plan plan : {GoodPlan(), SlidingPlan()}) {
     plan.object_sha256 = std::string(64, '0');
     const plan::Plan again = plan::ParsePlan(plan::FormatPlan(plan), "plan");
-    EXPECT_THAT(CheckHand(kHand, Cube(), plan::LocatePlan(Cube(), again)), testing::IsEmpty());
+    EXPECT_THAT(CheckHand(kHand, Cube(), plan::ProjectPlan(Cube(), again)), testing::IsEmpty());
     EXPECT_TRUE(again.hand);
     EXPECT_EQ(again.steps.size(), plan.steps.size());
   }

@@ -11,11 +11,11 @@ using plan::EntryIndex;
 
 /// Compute the expected result of WeakestFingers for a step from its grasps one by one.
 std::optional<NeedOfFinger> WeakestOf(const std::vector<plan::FingerGrasp>& grasps,
-                                      const object::WrenchFrame& frame, double half_angle) {
+                                      const object::WrenchFrame& frame, double friction_angle) {
   std::vector<NeedOfFinger> needs;
   std::vector<grasp::FingerFriction> friction;
   for (const plan::FingerGrasp& grasp : grasps) {
-    const auto all = grasp::MeasureFingerFriction(plan::ContactsOf(grasp), frame, half_angle);
+    const auto all = grasp::MeasureFingerFriction(plan::ContactsOf(grasp), frame, friction_angle);
     for (std::size_t i = 0; i < all.size(); ++i) needs.push_back({grasp[i].finger, all[i]});
     friction.insert(friction.end(), all.begin(), all.end());
   }

@@ -77,7 +77,7 @@ TEST(OdeEngineTest, HoldsWithinTheConeAndBalancesTheWeight) {
     const Vector3d force = world.engine().tip_force(f).force;
     const Vector3d normal = world.X_SB().linear() * world.fingers()[f].contact.n;
     EXPECT_GT(force.dot(normal), 0);
-    EXPECT_GE(ConeMargin(force, normal, world.half_angle()), 0);
+    EXPECT_GE(ConeMargin(force, normal, world.friction_angle()), 0);
     total += force;
   }
   EXPECT_LT((total + world.weight_S()).norm(), 1e-3 * world.weight_S().norm());

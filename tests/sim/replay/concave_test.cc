@@ -161,7 +161,7 @@ TEST(ReplayConcave, HoldsWithAFingerInTheCornerOfAFace) {
   EXPECT_EQ(held.steps.at(0).reason, plan::Reason::kNone) << held.steps[0].detail;
   // With less than the required friction the object must slip.
   plan::Plan slippery = plan;
-  slippery.half_angle = Radians(6);
+  slippery.friction_angle = Radians(6);
   EXPECT_NE(ReplayPlan(body, slippery, {}).steps.at(0).reason, plan::Reason::kNone);
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "planner/grasp/largest_load.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check.h"
 #include "sim/scene/scaling.h"
 #include "tests/sim/planar_cases.h"
@@ -28,7 +28,7 @@ struct Hold {
 
   Hold(const object::Object& body, plan::Plan held, const ReplayOptions& options = {})
       : object(body), plan(std::move(held)) {
-    settings = DeriveSettings(object, plan.scale, plan.half_angle, object.diameter(), options);
+    settings = DeriveSettings(object, plan.scale, plan.friction_angle, object.diameter(), options);
     replay.adapted = replay.fixed = StepMotion();
   }
   [[nodiscard]] std::optional<Disagreement> Explain() const {
@@ -98,10 +98,10 @@ TEST(DisagreementTest, AFingertipThickerThanTheHoleHasNoClearance) {
   EXPECT_NEAR(ValueOf(found, "fingertip_radius_m"), 0.03, 1e-12);
 }
 
-TEST(DisagreementTest, AWeightThatTheSqueezeDoesNotCarryIsNamed) {
+TEST(DisagreementTest, AWeightThatTheGraspForceDoesNotCarryIsNamed) {
   const CubeCase cube;
   ReplayOptions options;
-  options.squeeze_N = 3;  // for a weight of 2.1 N, at friction 0.47
+  options.grasp_force_N = 3;  // for a weight of 2.1 N, at friction 0.47
   Hold hold(cube.object, MakePlan(cube.Start(), 25), options);
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kWeight);
@@ -113,11 +113,11 @@ TEST(DisagreementTest, AWeightThatLeavesTooLittleForTheShakeIsNamed) {
   const plan::Plan plan = MakePlan(cube.Start(), 25);
   const double carried =
       grasp::ComputeLargestLoad(plan::ContactsOf(plan.initial), cube.object.wrench_frame(),
-                                plan.half_angle, {}, {-Eigen::Vector3d::UnitZ(), {0, 0, 0}}, 1)
+                                plan.friction_angle, {}, {-Eigen::Vector3d::UnitZ(), {0, 0, 0}}, 1)
           ->lower;
   ReplayOptions options;
   options.mass_kg = 0.2;
-  options.squeeze_N = 0.2 * kGravity / (carried - 0.005);
+  options.grasp_force_N = 0.2 * kGravity / (carried - 0.005);
   Hold hold(cube.object, plan, options);
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kWeight);
@@ -141,7 +141,7 @@ TEST(DisagreementTest, AForceThatReachedItsConeIsNamedWithItsFingerAndItsTime) {
   const CubeCase cube;
   Hold hold(cube.object, MakePlan(cube.Start(), 25));
   hold.replay.motion_margins = {{FingerIndex(0), 0.1}, {FingerIndex(2), 0.2}};
-  hold.replay.rest_margins = {{FingerIndex(0), 0.1}, {FingerIndex(2), 1e-5}};
+  hold.replay.static_margins = {{FingerIndex(0), 0.1}, {FingerIndex(2), 1e-5}};
   const Disagreement found = hold.ExplainFailure();
   EXPECT_EQ(found.cause, Cause::kConeReached);
   EXPECT_EQ(ValueOf(found, "finger"), 2);
@@ -162,34 +162,34 @@ TEST(DisagreementTest, APassOfWhatTheAnalysisFailsHasItsOwnCauses) {
   EXPECT_EQ(found.between, Between::kAnalysisFails);
   EXPECT_EQ(found.cause, Cause::kNotSimulated);
   hold.check.reason = plan::Reason::kNotForceClosure;
-  hold.check.required = grasp::RequiredHalfAngle{Radians(20.1), Radians(20.1)};
-  EXPECT_EQ(hold.Explain()->cause, Cause::kCriticalFriction);
-  hold.check.required = grasp::RequiredHalfAngle{Radians(25), Radians(25)};
+  hold.check.required = grasp::RequiredFrictionAngle{Radians(20.1), Radians(20.1)};
+  EXPECT_EQ(hold.Explain()->cause, Cause::kRequiredFriction);
+  hold.check.required = grasp::RequiredFrictionAngle{Radians(25), Radians(25)};
   EXPECT_EQ(hold.Explain()->cause, Cause::kUnknown);
-  hold.settings.shake = 0;
-  EXPECT_EQ(hold.Explain()->cause, Cause::kNoShake);
+  hold.settings.disturbance_ratio = 0;
+  EXPECT_EQ(hold.Explain()->cause, Cause::kNoDisturbance);
 }
 
 TEST(DisagreementTest, AReplayThatPassesAGraspThatTheAnalysisRefusesSaysWhy) {
   const CubeCase cube;
   // So close to the required friction, the missing force does not move the object without a
   // disturbance.
-  const double required =
-      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(cube.Start()), cube.object.wrench_frame())
-          ->lower;
+  const double required = grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(cube.Start()),
+                                                              cube.object.wrench_frame())
+                              ->lower;
   const plan::Plan plan = MakePlan(cube.Start(), Degrees(0.9999 * required));
   ReplayOptions options;
-  options.shake = 0;
+  options.disturbance_ratio = 0;
   options.gravity = false;
   const plan::PlanCheck check = plan::CheckPlan(cube.object, plan, {});
   EXPECT_EQ(check.steps.at(0).reason, plan::Reason::kNotForceClosure);
-  const ReplayResult replay = ReplayPlan(cube.object, check.located, options);
+  const ReplayResult replay = ReplayPlan(cube.object, check.projected, options);
   EXPECT_EQ(replay.steps.at(0).reason, plan::Reason::kNone);
   const auto found = ExplainDisagreement(
-      {cube.object, check.located, check.steps[0], replay.steps[0], replay.settings});
+      {cube.object, check.projected, check.steps[0], replay.steps[0], replay.settings});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->between, Between::kAnalysisFails);
-  EXPECT_EQ(found->cause, Cause::kNoShake);
+  EXPECT_EQ(found->cause, Cause::kNoDisturbance);
 }
 
 /// Initial grasp replayed by both engines.
@@ -200,7 +200,7 @@ struct HoldOfTwo : Hold {
                                                     const FingerMargins& ode_margins = {}) {
     replay.reason = mujoco;
     replay.ode = StepMotion();
-    replay.ode->shake_margins = ode_margins;
+    replay.ode->disturbance_margins = ode_margins;
     replay.ode->reason = ode;
     replay.ode->detail = "what ODE says";
     return ExplainEngines({object, plan, check, replay, settings});
@@ -230,12 +230,12 @@ TEST(EnginesTest, FrictionNearTheCriticalOneComesFirstAndAWeakGraspNext) {
   const CubeCase cube;
   // The grasp requires 5.3°.
   HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 5.4));
-  const auto required =
-      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(cube.Start()), cube.object.wrench_frame());
+  const auto required = grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(cube.Start()),
+                                                            cube.object.wrench_frame());
   hold.check.required = required;
   hold.settings.mu = 1.01 * std::tan(required->upper);
   const Disagreement near = hold.Compare(kPasses, plan::Reason::kSlipped).value();
-  EXPECT_EQ(near.cause, Cause::kCriticalFriction);
+  EXPECT_EQ(near.cause, Cause::kRequiredFriction);
   EXPECT_THAT(near.text, HasSubstr("1.01 times the required one"));
   hold.settings.mu = 1.04 * std::tan(required->upper);
   EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kQuality);
@@ -253,7 +253,7 @@ TEST(EnginesTest, TheForcesOfTheEngineThatFailsAreLookedAt) {
   const CubeCase cube;
   HoldOfTwo hold(cube.object, MakePlan(cube.Start(), 25));
   EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kUnknown);
-  hold.replay.shake_margins = {{FingerIndex(1), 0.0}};
+  hold.replay.disturbance_margins = {{FingerIndex(1), 0.0}};
   EXPECT_EQ(hold.Compare(kPasses, plan::Reason::kSlipped).value().cause, Cause::kUnknown)
       << "MuJoCo's";
   const auto reached = hold.Compare(kPasses, plan::Reason::kSlipped, {{FingerIndex(1), 0.0}});

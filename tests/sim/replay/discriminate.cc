@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
@@ -19,9 +19,9 @@ constexpr double kAbove = 1.5;
 
 /// Return the required friction coefficient of a grasp; nullopt if its angle is outside (0.1°,
 /// 50°).
-std::optional<double> CriticalMu(const object::Object& body, const plan::FingerGrasp& grasp) {
+std::optional<double> RequiredMu(const object::Object& body, const plan::FingerGrasp& grasp) {
   const auto required =
-      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
+      grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(grasp), body.wrench_frame());
   if (!required || required->upper > Radians(50) || required->upper < Radians(0.1)) return {};
   return std::tan(required->upper);
 }
@@ -41,7 +41,7 @@ DiscriminationCount DiscriminateGrasp(const object::Object& body, const plan::Fi
   const double quality =
       grasp::ComputeQuality(plan::ContactsOf(grasp), body.wrench_frame(), std::atan(kAbove * mu))
           .lower;
-  if (quality <= ReplayOptions().shake) return count;
+  if (quality <= ReplayOptions().disturbance_ratio) return count;
   count.above = 1;
   const StepReplay above = ReplayHold(body, grasp, kAbove * mu);
   count.passed_above = above.reason == plan::Reason::kNone;
@@ -70,7 +70,7 @@ DiscriminationCount Discriminate(
     std::optional<double> mu;
     while (!mu) {
       grasp = draw(i, random);
-      mu = CriticalMu(body, grasp);
+      mu = RequiredMu(body, grasp);
     }
     SCOPED_TRACE(name + ", grasp " + std::to_string(i) + ", critical mu " + std::to_string(*mu));
     count += DiscriminateGrasp(body, grasp, *mu);

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "sim/replay/disagreement.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay/replay_expectations.h"
@@ -24,8 +24,8 @@ ReplayOptions By(EngineChoice engine) {
 const ReplayOptions kOde = By(EngineChoice::kOde);
 const ReplayOptions kBoth = By(EngineChoice::kBoth);
 
-plan::Plan CubeSwitches(const CubeCase& cube, double half_angle_deg) {
-  plan::Plan plan = MakePlan(cube.Start(), half_angle_deg);
+plan::Plan CubeSwitches(const CubeCase& cube, double friction_angle_deg) {
+  plan::Plan plan = MakePlan(cube.Start(), friction_angle_deg);
   plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}},
                 plan::Switch{{cube.At(2, 0.002, 0.003, -0.03)}, {FingerIndex(3)}}};
   return plan;
@@ -133,7 +133,7 @@ TEST(OdeReplay, SaysTheSameTwice) {
   for (std::size_t k = 0; k < a.steps.size(); ++k) {
     EXPECT_EQ(a.steps[k].moved_m, b.steps[k].moved_m);
     EXPECT_EQ(a.steps[k].drift_m, b.steps[k].drift_m);
-    EXPECT_EQ(a.steps[k].rest_margins, b.steps[k].rest_margins);
+    EXPECT_EQ(a.steps[k].static_margins, b.steps[k].static_margins);
   }
 }
 
@@ -164,14 +164,15 @@ int CountAgreeing(const object::Object& body, int count,
   while (compared < 2 * count) {
     const plan::FingerGrasp grasp = draw(random);
     const auto required =
-        grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
+        grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(grasp), body.wrench_frame());
     if (!required || required->upper > Radians(50) || required->upper < Radians(0.5)) continue;
     for (const double ratio : {0.95, 1.3}) {
-      const double half_angle = std::atan(ratio * std::tan(required->upper));
+      const double friction_angle = std::atan(ratio * std::tan(required->upper));
       const grasp::Grasp contacts = plan::ContactsOf(grasp);
-      const double quality = grasp::ComputeQuality(contacts, body.wrench_frame(), half_angle).lower;
-      if (ratio > 1 && quality < kBoth.shake) continue;
-      plan::Plan plan = MakePlan(grasp, Degrees(half_angle), 4);
+      const double quality =
+          grasp::ComputeQuality(contacts, body.wrench_frame(), friction_angle).lower;
+      if (ratio > 1 && quality < kBoth.disturbance_ratio) continue;
+      plan::Plan plan = MakePlan(grasp, Degrees(friction_angle), 4);
       plan.dimension = body.dimension();
       const StepReplay step = ReplayPlan(body, plan, kBoth).steps.at(0);
       EXPECT_EQ(step.reason == plan::Reason::kNone, ratio > 1) << step.detail;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "planner/base/error.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "sim/replay/replay.h"
 #include "tests/sim/planar_cases.h"
 #include "tests/sim/replay/replay_expectations.h"
@@ -36,7 +36,7 @@ TEST(PlanarHold, LosesTheSameGraspsBelowTheirCriticalFriction) {
   const plan::FingerGrasp twisted = {OnEdge(triangle, 0, 0, 0.6), OnEdge(triangle, 1, 1, 0.6),
                                      OnEdge(triangle, 2, 2, 0.6)};
   const double critical =
-      grasp::ComputeRequiredHalfAngle(plan::ContactsOf(twisted), triangle.wrench_frame())
+      grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(twisted), triangle.wrench_frame())
           .value()
           .upper;
   EXPECT_GT(critical, Radians(5));
@@ -206,8 +206,8 @@ TEST(PlanarScale, MillimetresWithAScaleAreMetres) {
                            const ReplayOptions& options) {
     return ReplayPlan(polygon, plan, options, {}, 1).settings;
   };
-  EXPECT_NEAR(settings(square, SquareSwitches(square), thick).squeeze_N,
-              settings(big, millimetres, thick_in_millimetres).squeeze_N, 1e-9);
+  EXPECT_NEAR(settings(square, SquareSwitches(square), thick).grasp_force_N,
+              settings(big, millimetres, thick_in_millimetres).grasp_force_N, 1e-9);
 }
 
 TEST(PlanarScale, ReplaysBodiesFromMilligramsToTonnes) {

@@ -15,7 +15,7 @@ namespace regrasp::sim {
 namespace planar_sweep_test {
 
 constexpr unsigned kSeed = 31;
-constexpr double kHalfAngle = Radians(20);
+constexpr double kFrictionAngle = Radians(20);
 /// Number of draws of a grasp and of a sliding step. Polygons without a result are omitted; the
 /// tests count the rest.
 constexpr int kMostDraws = 20000, kMostAligns = 300;
@@ -57,11 +57,11 @@ class Dice {
     return {};
   }
   [[nodiscard]] bool IsForceClosureNow(const plan::FingerGrasp& grasp) const {
-    return grasp::IsForceClosure(plan::ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle);
+    return grasp::IsForceClosure(plan::ContactsOf(grasp), polygon_.wrench_frame(), kFrictionAngle);
   }
   [[nodiscard]] bool IsGood(const plan::FingerGrasp& grasp) const {
     return IsForceClosureNow(grasp) &&
-           grasp::ComputeQuality(plan::ContactsOf(grasp), polygon_.wrench_frame(), kHalfAngle)
+           grasp::ComputeQuality(plan::ContactsOf(grasp), polygon_.wrench_frame(), kFrictionAngle)
                    .lower >= kLeastQuality;
   }
 
@@ -94,7 +94,7 @@ std::optional<plan::Plan> DrawAlign(const object::Polygon& polygon, int fingers,
     if (!std::ranges::all_of(waypoints, [&](const auto& grasp) { return dice.IsGood(grasp); })) {
       continue;
     }
-    plan::Plan plan = MakePlanarPlan(from, Degrees(kHalfAngle));
+    plan::Plan plan = MakePlanarPlan(from, Degrees(kFrictionAngle));
     plan.steps = {plan::Align{waypoints}};
     plan.goal = plan::ContactsOf(waypoints.back());
     if (plan::CheckPlan(polygon, plan).passed()) return plan;
@@ -151,7 +151,7 @@ std::optional<plan::Switch> DrawSwitch(const plan::FingerGrasp& before, bool goo
 /// Draw `switches` switches between good grasps, then one to a bad grasp; fewer if a draw fails.
 plan::Plan DrawWalk(int fingers, int switches, Dice& dice) {
   plan::FingerGrasp grasp = dice.DrawGrasp(fingers);
-  plan::Plan plan = MakePlanarPlan(grasp, Degrees(kHalfAngle));
+  plan::Plan plan = MakePlanarPlan(grasp, Degrees(kFrictionAngle));
   for (int i = 0; !grasp.empty() && i <= switches; ++i) {
     const std::optional<plan::Switch> change = DrawSwitch(grasp, i < switches, dice);
     if (!change) break;

@@ -47,7 +47,7 @@ TEST(ReplayHold, FrictionIsThatOfThePlan) {
 TEST(ReplayHold, DropsTheObjectWhereGravityIsMoreThanTheSqueezeBears) {
   const CubeCase cube;
   ReplayOptions options;
-  options.squeeze_N = 0.5;  // for a weight of 2.1 N, at friction 0.47
+  options.grasp_force_N = 0.5;  // for a weight of 2.1 N, at friction 0.47
   const plan::Plan plan = MakePlan(cube.Start(), 25);
   EXPECT_TRUE(LosesObject(ReplayPlan(cube.object, plan, options).steps.at(0).reason));
   options.gravity = false;
@@ -57,7 +57,7 @@ TEST(ReplayHold, DropsTheObjectWhereGravityIsMoreThanTheSqueezeBears) {
 TEST(ReplayHold, FailsUnderAShakeLargerThanTheQuality) {
   const CubeCase cube;
   ReplayOptions options;
-  options.shake = 0.6;
+  options.disturbance_ratio = 0.6;
   EXPECT_TRUE(
       LosesObject(ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0).reason));
 }
@@ -79,11 +79,12 @@ TEST(ReplayFault, OfASlipIsWhereTheFingerWasAndCameToUnderThePush) {
 TEST(ReplayFault, OfAnObjectThatMovesHasThePushAndWhereItWas) {
   const CubeCase cube;
   ReplayOptions options;
-  options.shake = 0.6;
+  options.disturbance_ratio = 0.6;
   const StepReplay step = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), options).steps.at(0);
   ASSERT_TRUE(LosesObject(step.reason));
-  ASSERT_TRUE(step.fault.push.has_value()) << step.detail;
-  const double size = step.fault.push->force_N.norm() + step.fault.push->torque_Nm.norm();
+  ASSERT_TRUE(step.fault.disturbance.has_value()) << step.detail;
+  const double size =
+      step.fault.disturbance->force_N.norm() + step.fault.disturbance->torque_Nm.norm();
   EXPECT_GT(size, 0);
   EXPECT_TRUE(step.fault.X_WO_before.has_value());
   // The snapshot is that of the failure, not that of the static grasp before it.
@@ -95,7 +96,7 @@ TEST(ReplayFault, OfAStepThatPassesIsEmpty) {
   const StepReplay step = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}).steps.at(0);
   ASSERT_EQ(step.reason, plan::Reason::kNone);
   EXPECT_TRUE(step.fault.fingers.empty());
-  EXPECT_FALSE(step.fault.push || step.fault.found || step.fault.X_WO_before);
+  EXPECT_FALSE(step.fault.disturbance || step.fault.found || step.fault.X_WO_before);
 }
 
 TEST(ReplayHold, AGraspWithoutFingersFails) {
@@ -276,7 +277,7 @@ TEST(ReplayScale, MillimetresWithAScaleAreMetres) {
   const ReplayResult a = ReplayPlan(cube.object, metres, {});
   const ReplayResult b = ReplayPlan(big, millimetres, {});
   ExpectGood(b, 5);
-  EXPECT_NEAR(a.settings.squeeze_N, b.settings.squeeze_N, 1e-9 * a.settings.squeeze_N);
+  EXPECT_NEAR(a.settings.grasp_force_N, b.settings.grasp_force_N, 1e-9 * a.settings.grasp_force_N);
   EXPECT_NEAR(a.settings.timestep_s, b.settings.timestep_s, 1e-9 * a.settings.timestep_s);
 }
 

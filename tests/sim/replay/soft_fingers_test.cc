@@ -7,8 +7,8 @@
 #include <string>
 
 #include "planner/grasp/quality.h"
-#include "planner/grasp/required_half_angle.h"
-#include "sim/measure/shake.h"
+#include "planner/grasp/required_friction_angle.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/scaling.h"
 #include "sim/world/motion_monitor.h"
 #include "tests/fixtures/solids.h"
@@ -40,7 +40,7 @@ plan::Reason ReasonOf(const CubeCase& cube, const plan::Plan& plan,
 /// line.
 double TorsionFor(const CubeCase& cube, double times_shake) {
   const double radius = cube.object.diameter() / 2;
-  return times_shake * ReplayOptions().shake * radius / std::tan(Radians(kDegrees));
+  return times_shake * ReplayOptions().disturbance_ratio * radius / std::tan(Radians(kDegrees));
 }
 
 TEST(SoftFingersReplay, TwoHoldACubeAndHardPointsLoseIt) {
@@ -57,9 +57,9 @@ TEST(SoftFingersReplay, WhatTheyResistAboutTheirLineIsTheTorsionThatTheyHave) {
     const double torsion = TorsionFor(cube, times);
     const plan::Plan plan = PairOnCube(cube, torsion);
     const grasp::QualityBounds quality = grasp::ComputeQuality(
-        plan::ContactsOf(plan.initial), cube.object.wrench_frame(), plan.half_angle, 0.2);
-    EXPECT_LE(quality.lower, times * ReplayOptions().shake * (1 + 1e-9));
-    EXPECT_GE(quality.upper, times * ReplayOptions().shake * (1 - 1e-9));
+        plan::ContactsOf(plan.initial), cube.object.wrench_frame(), plan.friction_angle, 0.2);
+    EXPECT_LE(quality.lower, times * ReplayOptions().disturbance_ratio * (1 + 1e-9));
+    EXPECT_GE(quality.upper, times * ReplayOptions().disturbance_ratio * (1 - 1e-9));
     const plan::Reason reason = ReasonOf(cube, plan);
     if (times < 1) {
       EXPECT_TRUE(LosesObject(reason)) << times;
@@ -76,12 +76,12 @@ TEST(SoftFingersReplay, WhatTheyResistAboutTheirLineIsTheTorsionThatTheyHave) {
 TEST(SoftFingersReplay, TheLargestPushInEveryDirectionIsThatOfTheAnalysis) {
   const CubeCase cube;
   ReplayOptions options;
-  options.stress = true;
+  options.resisted_wrench = true;
   options.gravity = false;
   const ReplayResult result = ReplayPlan(cube.object, PairOnCube(cube, 0.02), options);
   ASSERT_EQ(result.steps.at(0).reason, plan::Reason::kNone);
-  ASSERT_EQ(result.steps[0].stress.size(), 12U);
-  for (const DirectionStress& direction : result.steps[0].stress) {
+  ASSERT_EQ(result.steps[0].resisted_wrench.size(), 12U);
+  for (const ResistedWrench& direction : result.steps[0].resisted_wrench) {
     EXPECT_NEAR(direction.replay, direction.analysis, 0.05 * direction.analysis);
   }
 }
@@ -91,18 +91,18 @@ TEST(SoftFingersReplay, AWeightTakesOfTheTorqueAboutTheLineWhatTheEllipseSays) {
   const CubeCase cube;
   const double torsion = 0.02, mu = std::tan(Radians(kDegrees));
   ReplayOptions options;
-  options.stress = true;
+  options.resisted_wrench = true;
   options.mass_kg = 0.2;
   for (const double share : {0.4, 0.8}) {
-    options.squeeze_N = *options.mass_kg * kGravity / (share * mu);
+    options.grasp_force_N = *options.mass_kg * kGravity / (share * mu);
     const ReplayResult result = ReplayPlan(cube.object, PairOnCube(cube, torsion), options);
     ASSERT_EQ(result.steps.at(0).reason, plan::Reason::kNone);
     const double radius = cube.object.diameter() / 2;
     const double expected = mu * torsion / radius * std::sqrt(1 - share * share);
     int about_line = 0;
-    for (const DirectionStress& direction : result.steps[0].stress) {
-      const grasp::Wrench push = PushWrench(direction.push, 1);
-      if (std::abs(push.torque_over_radius.x()) != 1) continue;
+    for (const ResistedWrench& direction : result.steps[0].resisted_wrench) {
+      const grasp::Wrench disturbance = DisturbanceWrench(direction.disturbance, 1);
+      if (std::abs(disturbance.torque_over_radius.x()) != 1) continue;
       ++about_line;
       EXPECT_NEAR(direction.analysis, expected, 1e-6);
       EXPECT_NEAR(direction.replay, expected, 0.05 * expected);
@@ -114,7 +114,7 @@ TEST(SoftFingersReplay, AWeightTakesOfTheTorqueAboutTheLineWhatTheEllipseSays) {
 TEST(SoftFingersReplay, FailsBelowTheFrictionThatTheOffsetNeeds) {
   const CubeCase cube;
   const double offset = 0.012;
-  const auto required = grasp::ComputeRequiredHalfAngle(
+  const auto required = grasp::ComputeRequiredFrictionAngle(
       plan::ContactsOf(PairOnCube(cube, 0.02, offset).initial), cube.object.wrench_frame());
   ASSERT_TRUE(required);
   EXPECT_NEAR(required->upper, std::atan(offset / 0.06), 1e-6);
@@ -133,7 +133,7 @@ TEST(SoftFingersReplay, TheSceneHasTheEnginesTorsionalFrictionAndHardPointsNone)
   const auto hard = LoadFromFile(SceneMjcf(cube.object, PairOnCube(cube, 0), {}));
   ASSERT_NE(soft, nullptr);
   ASSERT_NE(hard, nullptr);
-  const double mu = std::tan(plan.half_angle);
+  const double mu = std::tan(plan.friction_angle);
   EXPECT_EQ(soft->opt.cone, mjCONE_ELLIPTIC);
   for (int geom = 0; geom < soft->ngeom; ++geom) {
     EXPECT_EQ(soft->geom_condim[geom], 4);
@@ -174,15 +174,17 @@ TEST(SoftFingersReplay, ATwoFingerSequencePasses) {
 
 TEST(SoftFingersReplay, TheMarginCountsTheTorqueAsATangentialForce) {
   const Eigen::Vector3d n = Eigen::Vector3d::UnitX();
-  const double half_angle = Radians(30);
-  EXPECT_EQ(ConeMargin({1, 0.3, 0}, n, half_angle, 0), ConeMargin({1, 0.3, 0}, n, half_angle));
-  EXPECT_NEAR(ConeMargin({1, 0.3, 0}, n, half_angle, 0.4), half_angle - std::atan(0.5), 1e-15);
+  const double friction_angle = Radians(30);
+  EXPECT_EQ(ConeMargin({1, 0.3, 0}, n, friction_angle, 0),
+            ConeMargin({1, 0.3, 0}, n, friction_angle));
+  EXPECT_NEAR(ConeMargin({1, 0.3, 0}, n, friction_angle, 0.4), friction_angle - std::atan(0.5),
+              1e-15);
   const CubeCase cube;
   const StepReplay step =
       ReplayPlan(cube.object, PairOnCube(cube, TorsionFor(cube, 1.1)), {}).steps.at(0);
   ASSERT_EQ(step.reason, plan::Reason::kNone);
   ASSERT_TRUE(step.adapted);
-  const auto least = SmallestMargin(step.adapted->shake_margins);
+  const auto least = SmallestMargin(step.adapted->disturbance_margins);
   ASSERT_TRUE(least);
   // The disturbance about the line takes almost all of the friction.
   EXPECT_GT(*least, 0);

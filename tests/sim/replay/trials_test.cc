@@ -28,9 +28,10 @@ TrialOptions Trials(int count, double position, double friction, double mass = 0
 }
 
 /// Return the number of passed trials. The cube's grasp requires 5.3°.
-int Passes(double half_angle_deg, const TrialOptions& trials) {
+int Passes(double friction_angle_deg, const TrialOptions& trials) {
   const CubeCase cube;
-  return RunTrials(cube.object, MakePlan(cube.Start(), half_angle_deg), {}, trials, kTip).passed;
+  return RunTrials(cube.object, MakePlan(cube.Start(), friction_angle_deg), {}, trials, kTip)
+      .passed;
 }
 
 plan::Plan SwitchAndAlign(const CubeCase& cube) {
@@ -263,7 +264,7 @@ TEST(Trials, ChangeTheWorldAndNotWhatTheHandBelieves) {
   EXPECT_EQ(settings.mu, std::tan(Radians(25)));
   ReplayOptions nominal;
   nominal.mass_kg = 0.25;
-  EXPECT_EQ(settings.squeeze_N, ReplayPlan(cube.object, plan, nominal).settings.squeeze_N);
+  EXPECT_EQ(settings.grasp_force_N, ReplayPlan(cube.object, plan, nominal).settings.grasp_force_N);
 }
 
 TEST(Trials, WorkInThePlane) {

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kRadius = 0.05;  // m
 constexpr double kDiameter = 2 * kRadius;
-constexpr double kHalfAngle = Radians(30);
+constexpr double kFrictionAngle = Radians(30);
 constexpr double kQuality = 0.02;  // the disturbance is 0.01
 
 /// Return a sphere with faces of width `finest` · D at its two poles on the x axis. The width grows
@@ -87,7 +87,8 @@ plan::FingerGrasp DrawGrasp(const object::Polyhedron& ball, double share, std::m
       const FaceIndex face = NearestFace(ball, kRadius * near);
       grasp.push_back({FingerIndex(grasp.size()), DrawOnFace(ball, face, part, random)});
     }
-    if (grasp::QualityAtLeast(plan::ContactsOf(grasp), ball.wrench_frame(), kHalfAngle, kQuality))
+    if (grasp::QualityAtLeast(plan::ContactsOf(grasp), ball.wrench_frame(), kFrictionAngle,
+                              kQuality))
       return grasp;
   }
 }
@@ -112,7 +113,7 @@ struct Holds {
     for (int k = 0; k < 4; ++k) {
       const plan::FingerGrasp grasp = DrawGrasp(ball, share, random);
       const StepReplay hold =
-          ReplayPlan(ball, MakePlan(grasp, Degrees(kHalfAngle)), {}).steps.at(0);
+          ReplayPlan(ball, MakePlan(grasp, Degrees(kFrictionAngle)), {}).steps.at(0);
       EXPECT_EQ(hold.reason, plan::Reason::kNone) << hold.detail;
       EXPECT_LT(hold.slip_m, kNoSlip * kDiameter);
       for (int f = 0; f < 2; ++f) ++(IsRectangle(ball, grasp[f].contact) ? rectangles : others);
@@ -169,7 +170,7 @@ TEST(FineFacets, AreWhereTheyAreAlthoughTheEngineKeepsMeshesInSinglePrecision) {
   const object::Polyhedron ball = MakeBall(3e-3, 6);
   int meshes = 0;
   for (int k = 0; k < 20; ++k) {
-    const plan::Plan plan = MakePlan(DrawGrasp(ball, 0.05, random), Degrees(kHalfAngle));
+    const plan::Plan plan = MakePlan(DrawGrasp(ball, 0.05, random), Degrees(kFrictionAngle));
     const Scene scene = MakeScene(ball, plan, 0, {});
     const ModelPtr model = LoadFromFile(FormatScene(scene, ball, {}, false));
     ASSERT_NE(model, nullptr);

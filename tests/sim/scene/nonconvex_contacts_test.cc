@@ -36,7 +36,7 @@ constexpr double kTouch = 1e-4;
 
 /// Compare the contact points in the static grasp with those of the plan.
 void Count(const object::Object& object, const plan::FingerGrasp& planned,
-           const plan::Snapshot& rest, double half_angle, TouchCount& count) {
+           const plan::Snapshot& rest, double friction_angle, TouchCount& count) {
   double all_forces = 0;
   for (const plan::FingerState& state : rest.fingers) all_forces += state.force_W.norm();
   const Eigen::Isometry3d X_OW = rest.X_WO.inverse();
@@ -51,7 +51,7 @@ void Count(const object::Object& object, const plan::FingerGrasp& planned,
     }
     const Vector3d touch_O = X_OW * state->contact_W;
     const double along = force_O.dot(held.contact.n) / force_O.norm();
-    const bool own_force = std::acos(std::clamp(along, -1.0, 1.0)) <= half_angle + kOutside;
+    const bool own_force = std::acos(std::clamp(along, -1.0, 1.0)) <= friction_angle + kOutside;
     const double to_own =
         (object.ClosestPoint(held.contact.face, touch_O) - touch_O).norm() / object.diameter();
     if (!own_force || to_own > kTouch) ++count.ghosts;
@@ -224,13 +224,13 @@ TEST(NonconvexContacts, AFingerOnAFaceThatIsSmallerThanItsTipIsJudged) {
     if (deeper < 0) {
       EXPECT_EQ(result.steps[0].reason, plan::Reason::kNone) << result.steps[0].detail;
     }
-    plan.half_angle = Radians(0.5);
+    plan.friction_angle = Radians(0.5);
     EXPECT_NE(ReplayPlan(body, plan, {}).steps.at(0).reason, plan::Reason::kNone);
   }
 }
 
 /// Draw a grasp of four that resists the disturbance, with clearance for each finger.
-plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
+plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double friction_angle,
                             std::mt19937& random) {
   constexpr double kQuality = 0.015;  // the disturbance is 0.01
   constexpr int kMostDraws = 100'000;
@@ -240,8 +240,8 @@ plan::FingerGrasp DrawGrasp(const object::Polyhedron& body, double half_angle,
       const grasp::Contact contact = DrawContact(body, random);
       if (criteria::HasClearance(body, contact)) grasp.push_back(contact);
     }
-    if (grasp::IsForceClosure(grasp, body.wrench_frame(), half_angle) &&
-        grasp::QualityAtLeast(grasp, body.wrench_frame(), half_angle, kQuality)) {
+    if (grasp::IsForceClosure(grasp, body.wrench_frame(), friction_angle) &&
+        grasp::QualityAtLeast(grasp, body.wrench_frame(), friction_angle, kQuality)) {
       return plan::FingersInOrder(grasp);
     }
   }

@@ -21,18 +21,18 @@ TEST(PlanarSceneMjcf, StockMujocoLoadsItAndItsKeyframeHoldsTheObject) {
   const DataPtr data(mj_makeData(model.get()));
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   constexpr int kSteps = 2000;
-  const auto push = [&](double force) {
+  const auto disturbance = [&](double force) {
     const int body = mj_name2id(model.get(), mjOBJ_BODY, "object");
     data->xfrc_applied[6 * body + 1] = force;  // across the fingers
     for (int i = 0; i < kSteps; ++i) mj_step(model.get(), data.get());
     return std::hypot(data->qpos[0], data->qpos[1]) + std::abs(data->qpos[2]) * frame.diameter();
   };
   const double weight = model->body_mass[1] * 9.81;
-  EXPECT_LT(push(weight), 1e-3 * frame.diameter());
+  EXPECT_LT(disturbance(weight), 1e-3 * frame.diameter());
   // Without the controls the object falls.
   mj_resetDataKeyframe(model.get(), data.get(), 0);
   mju_zero(data->ctrl, model->nu);
-  EXPECT_GT(push(weight), 1e-2 * frame.diameter());
+  EXPECT_GT(disturbance(weight), 1e-2 * frame.diameter());
 }
 
 TEST(PlanarSceneMjcf, HasThePrismsMassItsJointsAndFingersAlongZ) {

@@ -26,18 +26,19 @@ object::Polyhedron MakeRod(double width) {
 
 /// Return a plan with two pairs of opposite fingers across the rod, `apart` m from each other.
 plan::Plan HoldRod(const object::Polyhedron& rod, double width, double apart,
-                   double half_angle_deg) {
+                   double friction_angle_deg) {
   const double b = width / 2, x = apart / 2, off = 0.3 * b;
   return MakePlan({{FingerIndex(0), ContactAt(rod, {x, off, b}, {0, 0, -1})},
                    {FingerIndex(1), ContactAt(rod, {x, off, -b}, {0, 0, 1})},
                    {FingerIndex(2), ContactAt(rod, {-x, b, off}, {0, -1, 0})},
                    {FingerIndex(3), ContactAt(rod, {-x, -b, off}, {0, 1, 0})}},
-                  half_angle_deg);
+                  friction_angle_deg);
 }
 
-StepReplay ShakeRod(const object::Polyhedron& rod, const plan::Plan& plan, double shake) {
+StepReplay ShakeRod(const object::Polyhedron& rod, const plan::Plan& plan,
+                    double disturbance_ratio) {
   ReplayOptions options;
-  options.shake = shake;
+  options.disturbance_ratio = disturbance_ratio;
   return ReplayPlan(rod, plan, options).steps.at(0);
 }
 
@@ -51,9 +52,9 @@ TEST(Needle, IsHeldByAGraspWhoseQualityExceedsTheShakeAndByNoOther) {
     SCOPED_TRACE(width);
     const object::Polyhedron rod = MakeRod(width);
     const plan::Plan plan = HoldRod(rod, width, 0.8, 35);
-    const double quality =
-        grasp::ComputeQuality(plan::ContactsOf(plan.initial), rod.wrench_frame(), plan.half_angle)
-            .lower;
+    const double quality = grasp::ComputeQuality(plan::ContactsOf(plan.initial), rod.wrench_frame(),
+                                                 plan.friction_angle)
+                               .lower;
     // Torques are divided by half the length, but friction has only half the width as moment arm.
     EXPECT_LT(quality, width);
     EXPECT_GT(quality, width / 2);
@@ -83,7 +84,7 @@ TEST(Needle, IsLostWithoutForceClosureForItsOwnReason) {
 
 TEST(Needle, IsSimulatedInSmallerStepsAndOtherBodiesAreNot) {
   const CubeCase cube;
-  const auto steps = [](const ReplaySettings& s) { return s.natural_time_s / s.timestep_s; };
+  const auto steps = [](const ReplaySettings& s) { return s.characteristic_time_s / s.timestep_s; };
   const double usual = steps(DeriveSettings(cube.object, 1, 0.3, 1, {}));
   EXPECT_NEAR(usual, 50, 1e-9);
   EXPECT_NEAR(steps(DeriveSettings(MakeRod(0.1), 1, 0.3, 1, {})), usual, 1e-9);
@@ -100,7 +101,7 @@ TEST(EngineUnits, MakeEveryBodyLookAlike) {
     EXPECT_NEAR(s.diameter_m / units.length_m, kEngineDiameter, 1e-9);
     EXPECT_NEAR(s.mass_kg / units.mass_kg, 1, 1e-12);
     // F T² / (M D) = 1.
-    EXPECT_NEAR(s.squeeze_N / units.force_N() * kEngineTime * kEngineTime / kEngineDiameter, 1,
+    EXPECT_NEAR(s.grasp_force_N / units.force_N() * kEngineTime * kEngineTime / kEngineDiameter, 1,
                 1e-9);
   }
 }

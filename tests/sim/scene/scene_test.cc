@@ -188,11 +188,12 @@ TEST(Scaling, KeepsTheRatiosThatMakeEveryBodyTheSameExperiment) {
       ReplayOptions options;
       options.density_kg_m3 = density;
       const ReplaySettings s = DeriveSettings(cube.object, scale, 0.4, 1e9, options);
-      EXPECT_GE(s.finger_stiffness_N_m * s.diameter_m / s.squeeze_N, 5);
+      EXPECT_GE(s.finger_stiffness_N_m * s.diameter_m / s.grasp_force_N, 5);
       EXPECT_LE(s.finger_damping_Ns_m * s.timestep_s / s.finger_mass_kg, 0.6);
       EXPECT_NEAR(s.finger_damping_Ns_m, 2 * std::sqrt(s.finger_stiffness_N_m * s.finger_mass_kg),
                   1e-9 * s.finger_damping_Ns_m);
-      EXPECT_NEAR(s.mass_kg * kGravity / (s.shake * s.squeeze_N), kWeightOfShake, 1e-12);
+      EXPECT_NEAR(s.mass_kg * kGravity / (s.disturbance_ratio * s.grasp_force_N),
+                  kWeightOfDisturbance, 1e-12);
       ++checked;
     }
   }

@@ -10,7 +10,7 @@ namespace validation_report_test {
 ReportStep StepThatNeeds(int index, double required_deg) {
   ReportStep step;
   step.check.index = plan::EntryIndex(index);
-  step.check.required = grasp::RequiredHalfAngle{Radians(required_deg), Radians(required_deg)};
+  step.check.required = grasp::RequiredFrictionAngle{Radians(required_deg), Radians(required_deg)};
   step.replay.emplace().index = step.check.index;
   return step;
 }

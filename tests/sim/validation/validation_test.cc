@@ -10,7 +10,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/certificate/align_certificate.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/sim/actuation/held_in_hand.h"
 #include "tests/sim/replay_cases.h"
 
@@ -39,16 +39,16 @@ TEST_F(Validation, SettingsAreThoseOfTheRequestOrElseOfThePlan) {
   plan_.finger_radius = 0.001;
   const ValidationRequest plain{.object = cube_.object, .plan = plan_};
   const ValidationSettings of_plan = ResolveSettings(plain);
-  EXPECT_EQ(of_plan.plan.half_angle, plan_.half_angle);
+  EXPECT_EQ(of_plan.plan.friction_angle, plan_.friction_angle);
   EXPECT_EQ(of_plan.plan.torsion, 0);
   EXPECT_EQ(of_plan.plan.finger_radius, 0.001);
   EXPECT_FALSE(of_plan.hand);
   ValidationRequest request = plain;
-  request.options.half_angle = Radians(30);
+  request.options.friction_angle = Radians(30);
   request.options.torsion = 0.002;
   request.options.replay.finger_radius = 0.003;
   const ValidationSettings requested = ResolveSettings(request);
-  EXPECT_EQ(requested.plan.half_angle, Radians(30));
+  EXPECT_EQ(requested.plan.friction_angle, Radians(30));
   EXPECT_EQ(requested.plan.torsion, 0.002);
   EXPECT_EQ(requested.plan.initial[0].contact.torsion, 0.002);
   EXPECT_EQ(requested.plan.finger_radius, 0.003);
@@ -56,12 +56,12 @@ TEST_F(Validation, SettingsAreThoseOfTheRequestOrElseOfThePlan) {
 
 TEST_F(Validation, TheReportNamesTheSettings) {
   ValidationOptions options;
-  options.half_angle = Radians(30);
+  options.friction_angle = Radians(30);
   options.torsion = 0.002;
   options.replay.finger_radius = 0.003;
   const Report report = Run(options).report;
   EXPECT_TRUE(report.passed());
-  EXPECT_EQ(report.half_angle, Radians(30));
+  EXPECT_EQ(report.friction_angle, Radians(30));
   EXPECT_EQ(report.torsion, 0.002);
   EXPECT_EQ(report.finger_radius, 0.003);
   EXPECT_EQ(report.settings->torsion_m, 0.002);
@@ -71,7 +71,7 @@ TEST_F(Validation, TheReportNamesTheSettings) {
 TEST_F(Validation, TheReplayHasTheRequestedFriction) {
   for (const double degrees : {25, 30}) {
     ValidationOptions options;
-    if (degrees != 25) options.half_angle = Radians(degrees);
+    if (degrees != 25) options.friction_angle = Radians(degrees);
     const Report report = Run(options).report;
     ASSERT_TRUE(report.settings);
     EXPECT_NEAR(report.settings->mu, std::tan(Radians(degrees)), 1e-12);
@@ -84,8 +84,8 @@ TEST_F(Validation, CertificatesAreCheckedAtTheRequestedFriction) {
   plan_.goal = plan::ContactsOf(align.waypoints[1]);
   plan_.steps = {align};
   certificate::AddCertificates(cube_.object, plan_);
-  const plan::Plan located = plan::LocatePlan(cube_.object, plan_);
-  const auto& proved = std::get<plan::Align>(located.steps[0]);
+  const plan::Plan projected = plan::ProjectPlan(cube_.object, plan_);
+  const auto& proved = std::get<plan::Align>(projected.steps[0]);
   ASSERT_TRUE(proved.certificate);
   double refused = 0, holds = std::tan(Radians(25));
   while (holds - refused > 1e-6) {
@@ -96,7 +96,7 @@ TEST_F(Validation, CertificatesAreCheckedAtTheRequestedFriction) {
   }
   for (const double share : {0.99, 1.01}) {
     ValidationOptions options;
-    options.half_angle = std::atan(share * holds);
+    options.friction_angle = std::atan(share * holds);
     const Report report = Run(options).report;
     ASSERT_TRUE(report.steps[1].certificate) << report.steps[0].detail();
     EXPECT_EQ(report.steps[1].certificate->proves(), share > 1) << share;
@@ -134,7 +134,7 @@ TEST_F(Validation, TrialsAndProofsAreMadeOnRequestAndTrialsOnlyOfWhatPasses) {
   EXPECT_TRUE(passing.steps[0].proof);
   EXPECT_THAT(stages, ElementsAre("checking the plan", "replay: 1 of 1 steps", "trials: 1 of 2",
                                   "trials: 2 of 2"));
-  options.half_angle = Radians(1);
+  options.friction_angle = Radians(1);
   const Report failing = validate();
   EXPECT_FALSE(failing.passed());
   EXPECT_FALSE(failing.trials);
@@ -157,7 +157,7 @@ class ValidationByHand : public sim::HeldInHand {};
 TEST_F(ValidationByHand, TheHandExecutesThePlanUnlessPointFingersAreRequested) {
   ValidationOptions options;
   options.hand.tolerance.length_m = 3e-3;
-  options.replay.shake = 0.02;
+  options.replay.disturbance_ratio = 0.02;
   options.replay.mass_kg = kMass;
   const ValidationRequest request{
       .object = solid(), .plan = plan_, .hand = &hand_, .options = options};
@@ -165,7 +165,7 @@ TEST_F(ValidationByHand, TheHandExecutesThePlanUnlessPointFingersAreRequested) {
   EXPECT_TRUE(by_hand.passed());
   ASSERT_TRUE(by_hand.settings->hand);
   EXPECT_EQ(by_hand.settings->hand->tolerance.length_m, 3e-3);
-  EXPECT_EQ(by_hand.settings->shake, 0.02);
+  EXPECT_EQ(by_hand.settings->disturbance_ratio, 0.02);
   EXPECT_EQ(by_hand.settings->mass_kg, kMass);
   ValidationRequest points = request;
   points.options.replay_by_hand = false;

@@ -8,7 +8,7 @@ namespace cone_margin_test {
 
 using Eigen::Vector3d;
 
-TEST(ConeMarginTest, IsTheHalfAngleLessTheAngleToTheNormal) {
+TEST(ConeMarginTest, IsTheFrictionAngleLessTheAngleToTheNormal) {
   const Vector3d up = Vector3d::UnitZ();
   EXPECT_NEAR(ConeMargin({0, 0, 3}, up, Radians(20)), Radians(20), 1e-12);
   EXPECT_NEAR(ConeMargin({3, 0, 3}, up, Radians(50)), Radians(5), 1e-12);

@@ -149,7 +149,7 @@ TEST(MotionMonitorTest, MotionIsTheLargestSumOfShiftAndTurnNotTheSumOfTheLargest
 TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
   ReplaySettings settings = UnitSettings();
   settings.mu = 1;
-  settings.squeeze_N = 10;
+  settings.grasp_force_N = 10;
   MotionMonitor monitor(settings);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   monitor.AddForce(FingerIndex(0), {0, 0, 5}, up);
@@ -166,7 +166,7 @@ TEST(MotionMonitorTest, TheSmallestConeMarginOfEveryFingerThatPressesStays) {
 TEST(MotionMonitorTest, MarginsAreTheLeastOfAllForces) {
   ReplaySettings settings = UnitSettings();
   settings.mu = 0.5;
-  settings.squeeze_N = 1;
+  settings.grasp_force_N = 1;
   MotionMonitor monitor(settings);
   const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
   const Eigen::Vector3d tangent = normal.unitOrthogonal();

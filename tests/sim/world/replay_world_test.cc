@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/control/slide.h"
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"
 
@@ -73,8 +73,8 @@ TEST(MonitorOfAReplay, SeesUnderAFixedPushThatAFingerIsOffTheSurface) {
     ReplayWorld world(square, plan, MakeScene(square, plan, 0, {}), observer);
     TakeHold(world, ToScene(square, plan.scale, plan.initial));
     ComeToRest(world);
-    PushOnce(world, PushWrench({false, 0, 1}, share * world.settings().squeeze_N),
-             DisturbanceResponse::kFixed);
+    DisturbOnce(world, DisturbanceWrench({false, 0, 1}, share * world.settings().grasp_force_N),
+                DisturbanceResponse::kFixed);
     EXPECT_EQ(world.monitor().reason(), reason) << share << world.monitor().detail();
   }
 }
@@ -91,8 +91,8 @@ TEST(MonitorOfAReplay, SeesAfterAFixedPushThatAFingerIsOffTheSurface) {
   world.fingers()[3].holding = false;
   (void)WaitUntilStill(world);
   world.StartMonitoring();
-  PushOnce(world, PushWrench({false, 1, 1}, 0.02 * world.settings().squeeze_N),
-           DisturbanceResponse::kFixed);
+  DisturbOnce(world, DisturbanceWrench({false, 1, 1}, 0.02 * world.settings().grasp_force_N),
+              DisturbanceResponse::kFixed);
   EXPECT_EQ(world.monitor().reason(), plan::Reason::kContactLost) << world.monitor().detail();
 }
 

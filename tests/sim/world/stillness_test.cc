@@ -4,8 +4,8 @@
 
 #include "planner/base/error.h"
 #include "planner/grasp/largest_load.h"
-#include "planner/grasp/required_half_angle.h"
-#include "sim/measure/shake.h"
+#include "planner/grasp/required_friction_angle.h"
+#include "sim/measure/disturbance.h"
 #include "sim/world/motion_monitor.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/planar_cases.h"
@@ -40,12 +40,12 @@ TEST(Stillness, ABodyThatNothingHoldsFailsUnderEveryShakeThatIsAllowed) {
   options.gravity = false;
   int failed = 0;
   for (const double tolerance : {1e-4, 1e-3, 1e-2}) {
-    for (const double shake : {1.01 * LeastShake(tolerance), 1e-3, 1e-2, 0.1}) {
-      if (shake < LeastShake(tolerance)) continue;
+    for (const double disturbance_ratio : {1.01 * LeastDisturbance(tolerance), 1e-3, 1e-2, 0.1}) {
+      if (disturbance_ratio < LeastDisturbance(tolerance)) continue;
       for (const Protocol protocol : {Protocol::kAdapted, Protocol::kFixed}) {
-        SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(shake));
+        SCOPED_TRACE(std::to_string(tolerance) + " " + std::to_string(disturbance_ratio));
         options.tolerance = tolerance;
-        options.shake = shake;
+        options.disturbance_ratio = disturbance_ratio;
         options.protocol = protocol;
         EXPECT_EQ(ReplayPlan(cube.object, MakePlan({}, 25), options).steps.at(0).reason,
                   plan::Reason::kObjectMoved);
@@ -62,22 +62,22 @@ TEST(Stillness, AShakeThatABodyThatNothingHoldsWouldStandIsRefused) {
   const CubeCase cube;
   const plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayOptions options;
-  for (const auto& [shake, tolerance] :
+  for (const auto& [disturbance_ratio, tolerance] :
        {std::pair{1e-5, 1e-3}, {0.01, 9.0}, {1e-7, 1e-9}, {1e-5, 1e-9}}) {
-    SCOPED_TRACE(shake);
-    options.shake = shake;
+    SCOPED_TRACE(disturbance_ratio);
+    options.disturbance_ratio = disturbance_ratio;
     options.tolerance = tolerance;
     EXPECT_THROW((void)ReplayPlan(cube.object, plan, options), InputError);
   }
-  options.shake = 2 * LeastShake(1e-3);
+  options.disturbance_ratio = 2 * LeastDisturbance(1e-3);
   options.tolerance = 1e-3;
   EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
-  options.shake = 0;  // requires no minimum
+  options.disturbance_ratio = 0;  // requires no minimum
   EXPECT_EQ(ReplayPlan(cube.object, plan, options).steps.at(0).reason, plan::Reason::kNone);
 }
 
 TEST(Stillness, APinchThatSlidesFailsAndOneThatHoldsPassesAtEveryTimeStep) {
-  const double needed = std::sqrt(2.0) * ReplayOptions().shake;
+  const double needed = std::sqrt(2.0) * ReplayOptions().disturbance_ratio;
   for (const double factor : kTimesteps) {
     SCOPED_TRACE(factor);
     for (const double share : {0.6, 0.78, 0.9}) {
@@ -89,19 +89,20 @@ TEST(Stillness, APinchThatSlidesFailsAndOneThatHoldsPassesAtEveryTimeStep) {
 
 TEST(Stillness, ASmallShakeTellsAPinchThatSlidesFromOneThatHolds) {
   ReplayOptions options;
-  options.shake = 1e-3;
-  const double needed = std::sqrt(2.0) * options.shake;
+  options.disturbance_ratio = 1e-3;
+  const double needed = std::sqrt(2.0) * options.disturbance_ratio;
   EXPECT_NE(Pinch(0.6 * needed, options), plan::Reason::kNone);
   EXPECT_EQ(Pinch(1.1 * needed, options), plan::Reason::kNone);
 }
 
 /// Return the largest disturbance that a planar grasp resists in every direction of the test, over
 /// the grasp force.
-double LargestShake(const object::Polygon& polygon, const grasp::Grasp& grasp, double half_angle) {
+double LargestShake(const object::Polygon& polygon, const grasp::Grasp& grasp,
+                    double friction_angle) {
   double least = 1;
-  for (const Push& push : PushDirections(2)) {
-    const auto load = grasp::ComputeLargestLoad(grasp, polygon.wrench_frame(), half_angle, {},
-                                                PushWrench(push, 1), 1);
+  for (const Disturbance& disturbance : DisturbanceDirections(2)) {
+    const auto load = grasp::ComputeLargestLoad(grasp, polygon.wrench_frame(), friction_angle, {},
+                                                DisturbanceWrench(disturbance, 1), 1);
     least = std::min(least, load ? load->lower : 0);
   }
   return least;
@@ -115,8 +116,8 @@ plan::Plan DrawNearLimit(const object::Polygon& polygon, double most, std::mt199
     plan::FingerGrasp grasp;
     for (int f = 0; f < 2 + draw % 2; ++f) grasp.push_back(DrawOnBoundary(polygon, f, random));
     const plan::Plan plan = MakePlanarPlan(grasp, degrees(random));
-    const double resisted = LargestShake(polygon, plan::ContactsOf(grasp), plan.half_angle);
-    const double needed = ReplayOptions().shake / resisted;
+    const double resisted = LargestShake(polygon, plan::ContactsOf(grasp), plan.friction_angle);
+    const double needed = ReplayOptions().disturbance_ratio / resisted;
     if (needed > 1.002 && needed < most) return plan;
   }
 }
@@ -131,7 +132,8 @@ TEST(Stillness, PlanarGraspsThatNeedALittleMoreSqueezeFailAndPassWithLessShake) 
       const plan::Plan plan = DrawNearLimit(polygon, k < 5 ? 1.2 : 1.05, random);
       EXPECT_NE(ReplayPlan(polygon, plan, {}).steps.at(0).reason, plan::Reason::kNone);
       ReplayOptions less;
-      less.shake = 0.95 * LargestShake(polygon, plan::ContactsOf(plan.initial), plan.half_angle);
+      less.disturbance_ratio =
+          0.95 * LargestShake(polygon, plan::ContactsOf(plan.initial), plan.friction_angle);
       const StepReplay hold = ReplayPlan(polygon, plan, less).steps.at(0);
       EXPECT_EQ(hold.reason, plan::Reason::kNone) << hold.detail;
     }
@@ -157,7 +159,7 @@ TEST(Stillness, GraspsThatAreNotForceClosureFailAtEveryTimeStep) {
       plan::FingerGrasp grasp;
       for (FingerIndex f{0}; f < 4; ++f) grasp.push_back({f, DrawContact(body, random)});
       const auto required =
-          grasp::ComputeRequiredHalfAngle(plan::ContactsOf(grasp), body.wrench_frame());
+          grasp::ComputeRequiredFrictionAngle(plan::ContactsOf(grasp), body.wrench_frame());
       if (!required || required->upper > Radians(50) || required->upper < Radians(2)) continue;
       SCOPED_TRACE(std::string(name) + " " + std::to_string(examined));
       const double share = examined % 2 == 0 ? 0.95 : 0.997;
@@ -181,7 +183,7 @@ TEST(Stillness, AHeldBodyIsStillAndStaysSo) {
   const double before = held.world.engine().time();
   EXPECT_TRUE(WaitUntilStill(held.world));
   const double waited = held.world.engine().time() - before;
-  EXPECT_NEAR(waited, kStillTime * held.world.settings().natural_time_s, 1e-9 * before);
+  EXPECT_NEAR(waited, kStillTime * held.world.settings().characteristic_time_s, 1e-9 * before);
   ComeToRest(held.world);
   EXPECT_EQ(held.world.monitor().reason(), plan::Reason::kNone);
 }
@@ -196,7 +198,7 @@ TEST(Stillness, AFingerThatMovesIsWaitedForThoughTheBodyIsStill) {
   const auto wait = [&] {
     const double before = world.engine().time();
     EXPECT_TRUE(WaitUntilStill(world));
-    return (world.engine().time() - before) / world.settings().natural_time_s;
+    return (world.engine().time() - before) / world.settings().characteristic_time_s;
   };
   EXPECT_NEAR(wait(), kStillTime, 1e-6);
   world.engine().ShiftTip(apart, 1e-3 * world.settings().diameter_m * Eigen::Vector3d::UnitX());

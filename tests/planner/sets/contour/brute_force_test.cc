@@ -69,13 +69,13 @@ TEST(ContourBruteForce, NoticesAGraphOfOtherFrictionAndOfAnotherPolygon) {
 /// Classifies grasps given by places.
 class Witness {
  public:
-  Witness(const object::Polygon& polygon, const ContourGraph& graph, double half_angle)
-      : polygon_(polygon), graph_(graph), half_angle_(half_angle) {}
+  Witness(const object::Polygon& polygon, const ContourGraph& graph, double friction_angle)
+      : polygon_(polygon), graph_(graph), friction_angle_(friction_angle) {}
 
   [[nodiscard]] bool Confirms(const std::array<FaceIndex, 2>& edges, const Vector2d& places,
                               bool stretching) const {
     const Boundary& boundary = graph_.boundary();
-    const Sense sense = SenseOf(polygon_, half_angle_, boundary.ContactAt(edges[0], places.x()),
+    const Sense sense = SenseOf(polygon_, friction_angle_, boundary.ContactAt(edges[0], places.x()),
                                 boundary.ContactAt(edges[1], places.y()));
     return sense == (stretching ? Sense::kStretching : Sense::kSqueezing);
   }
@@ -160,7 +160,7 @@ class Witness {
 
   const object::Polygon& polygon_;
   const ContourGraph& graph_;
-  double half_angle_;
+  double friction_angle_;
 };
 
 TEST(ContourBruteForce, EveryPieceEveryPassageAndEverySwitchHasAWitness) {

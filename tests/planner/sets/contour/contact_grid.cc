@@ -48,10 +48,10 @@ bool IsGrasp(Sense sense) { return sense == Sense::kSqueezing || sense == Sense:
 
 }  // namespace
 
-Sense SenseOf(const object::Polygon& polygon, double half_angle, const grasp::Contact& a,
+Sense SenseOf(const object::Polygon& polygon, double friction_angle, const grasp::Contact& a,
               const grasp::Contact& b) {
   const std::array<grasp::Contact, 2> grasp = {a, b};
-  switch (grasp::TestForceClosure(grasp, polygon.wrench_frame(), half_angle).decision) {
+  switch (grasp::TestForceClosure(grasp, polygon.wrench_frame(), friction_angle).decision) {
     case grasp::Decision::kNo:
       return Sense::kNone;
     case grasp::Decision::kTooClose:
@@ -62,9 +62,9 @@ Sense SenseOf(const object::Polygon& polygon, double half_angle, const grasp::Co
   return Sense::kNone;
 }
 
-ContactGrid::ContactGrid(const object::Polygon& polygon, double half_angle, int lines,
+ContactGrid::ContactGrid(const object::Polygon& polygon, double friction_angle, int lines,
                          std::uint64_t seed)
-    : polygon_(polygon), half_angle_(half_angle) {
+    : polygon_(polygon), friction_angle_(friction_angle) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> within(0.02, 0.98);
   double length = 0;
@@ -88,7 +88,8 @@ ContactGrid::ContactGrid(const object::Polygon& polygon, double half_angle, int 
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < i; ++j) {
       if (lines_[i].face == lines_[j].face) continue;
-      sense_[i * n + j] = sense_[j * n + i] = SenseOf(polygon, half_angle, lines_[i], lines_[j]);
+      sense_[i * n + j] = sense_[j * n + i] =
+          SenseOf(polygon, friction_angle, lines_[i], lines_[j]);
     }
   }
   JoinCells();
@@ -109,9 +110,9 @@ void ContactGrid::JoinCells() {
       const int k = next_[i];
       if (lines_[k].face == lines_[i].face || sense(k, j) != s) continue;
       const Sense before =
-          SenseOf(polygon_, half_angle_, ContactOn(polygon_, lines_[i].face, 1), lines_[j]);
+          SenseOf(polygon_, friction_angle_, ContactOn(polygon_, lines_[i].face, 1), lines_[j]);
       const Sense after =
-          SenseOf(polygon_, half_angle_, ContactOn(polygon_, lines_[k].face, 0), lines_[j]);
+          SenseOf(polygon_, friction_angle_, ContactOn(polygon_, lines_[k].face, 0), lines_[j]);
       if (before == s && after == s) joined.push_back({cell, k * n + j});
     }
   }

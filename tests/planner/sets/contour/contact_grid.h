@@ -13,7 +13,7 @@ enum class Sense { kNone, kSqueezing, kStretching, kTooClose };
 
 /// Classify two contacts of a polygon by the general force-closure test and the direction between
 /// them.
-[[nodiscard]] Sense SenseOf(const object::Polygon& polygon, double half_angle,
+[[nodiscard]] Sense SenseOf(const object::Polygon& polygon, double friction_angle,
                             const grasp::Contact& a, const grasp::Contact& b);
 
 /// All pairs of sampled contacts of a polygon, classified one by one, with their connected
@@ -27,7 +27,7 @@ enum class Sense { kNone, kSqueezing, kStretching, kTooClose };
 /// thin set can have several components or none.
 class ContactGrid {
  public:
-  ContactGrid(const object::Polygon& polygon, double half_angle, int lines, std::uint64_t seed);
+  ContactGrid(const object::Polygon& polygon, double friction_angle, int lines, std::uint64_t seed);
 
   [[nodiscard]] int line_count() const { return static_cast<int>(lines_.size()); }
   [[nodiscard]] const grasp::Contact& line(int i) const { return lines_[i]; }
@@ -40,7 +40,7 @@ class ContactGrid {
   void JoinCells();
 
   const object::Polygon& polygon_;
-  double half_angle_;
+  double friction_angle_;
   std::vector<grasp::Contact> lines_;
   std::vector<int> next_;  ///< next line on the ring
   std::vector<Sense> sense_;

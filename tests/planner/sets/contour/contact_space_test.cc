@@ -93,21 +93,21 @@ TEST(PieceOutline, IsConvexOfAtMostSixCornersInItsRectangleAndWholeWhereThePiece
 
 /// Return whether a contact at a vertex and the other contact are a grasp of a sense, with either
 /// normal at the vertex.
-bool IsPassage(const object::Polygon& polygon, const Boundary& boundary, double half_angle,
+bool IsPassage(const object::Polygon& polygon, const Boundary& boundary, double friction_angle,
                const PiecePassage& passage, Sense sense, double place) {
   const FaceIndex next = boundary.next(passage.edge);
   const grasp::Contact other = boundary.ContactAt(passage.other, place);
   const grasp::Contact before = boundary.ContactAt(passage.edge, boundary.end(passage.edge));
   const grasp::Contact after = boundary.ContactAt(next, boundary.begin(next));
-  return SenseOf(polygon, half_angle, before, other) == sense &&
-         SenseOf(polygon, half_angle, after, other) == sense;
+  return SenseOf(polygon, friction_angle, before, other) == sense &&
+         SenseOf(polygon, friction_angle, after, other) == sense;
 }
 
 TEST(PassageRange, IsWhereBothNormalsOfTheVertexMakeAGraspAndNowhereElse) {
   int inside = 0;
   int outside = 0;
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph,
-                         double half_angle) {
+                         double friction_angle) {
     const Boundary& boundary = graph.boundary();
     const double margin = SizeToleranceOf(polygon);
     for (const PiecePassage& passage : graph.passages()) {
@@ -116,7 +116,7 @@ TEST(PassageRange, IsWhereBothNormalsOfTheVertexMakeAGraspAndNowhereElse) {
       const bool stretching = graph.pieces()[passage.pieces[0]].stretching;
       const Sense sense = stretching ? Sense::kStretching : Sense::kSqueezing;
       const auto is_passage = [&](double place) {
-        return IsPassage(polygon, boundary, half_angle, passage, sense, place);
+        return IsPassage(polygon, boundary, friction_angle, passage, sense, place);
       };
       for (const double place :
            {range.low + margin, (range.low + range.high) / 2, range.high - margin}) {
@@ -141,7 +141,7 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
   int falling = 0;
   int straight = 0;
   ForEachRegionGraph(
-      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double friction_angle) {
         const Boundary& boundary = graph.boundary();
         const double step = SizeToleranceOf(polygon);
         for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
@@ -163,7 +163,7 @@ TEST(SetBorder, SegmentsFallOrLieOnVerticesAndOneOfTheirSidesIsNotInTheSet) {
             for (const double side : {-1.0, 1.0}) {
               const Vector2d p = (segment.from + segment.to) / 2 + side * across;
               const Sense sense =
-                  SenseOf(polygon, half_angle, boundary.ContactAt(piece.edges[0], p.x()),
+                  SenseOf(polygon, friction_angle, boundary.ContactAt(piece.edges[0], p.x()),
                           boundary.ContactAt(piece.edges[1], p.y()));
               if (sense == Sense::kSqueezing || sense == Sense::kStretching) ++grasps;
             }

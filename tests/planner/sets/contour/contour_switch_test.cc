@@ -136,7 +136,7 @@ TEST(ContourSwitch, AWideOneIsFoundForEverySwitchOfTheGraphAndForNoOther) {
 void ExpectRoute(SetGeometry& geometry, const std::vector<PlacedGrasp>& route) {
   const ContourGraph& graph = geometry.graph();
   const object::Polygon& polygon = graph.boundary().polygon();
-  const double half_angle = std::atan(graph.tangent());
+  const double friction_angle = std::atan(graph.tangent());
   for (std::size_t i = 0; i + 1 < route.size(); ++i) {
     const PlacedGrasp& a = route[i];
     const PlacedGrasp& b = route[i + 1];
@@ -144,8 +144,8 @@ void ExpectRoute(SetGeometry& geometry, const std::vector<PlacedGrasp>& route) {
     if (a.piece == b.piece) {
       for (const double share : {0.25, 0.5, 0.75}) {
         const PlacedGrasp between = {a.piece, a.places + share * (b.places - a.places)};
-        EXPECT_TRUE(
-            grasp::IsForceClosure(geometry.GraspOf(between), polygon.wrench_frame(), half_angle));
+        EXPECT_TRUE(grasp::IsForceClosure(geometry.GraspOf(between), polygon.wrench_frame(),
+                                          friction_angle));
       }
       continue;
     }

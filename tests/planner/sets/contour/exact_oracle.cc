@@ -220,9 +220,9 @@ OracleCounts& OracleCounts::operator+=(const OracleCounts& other) {
 }
 
 OracleCounts CompareWithRationals(const object::Polygon& polygon, const ContourGraph& graph,
-                                  double half_angle, std::string& difference) {
+                                  double friction_angle, std::string& difference) {
   std::ostringstream out;
-  const Oracle oracle(polygon, std::tan(half_angle));
+  const Oracle oracle(polygon, std::tan(friction_angle));
   OracleCounts counts;
   counts.candidates = oracle.candidates;
   counts.combinations = oracle.combinations;

@@ -28,7 +28,7 @@ struct OracleCounts {
 /// method shares only tan θ with the planner.
 /// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] OracleCounts CompareWithRationals(const object::Polygon& polygon,
-                                                const ContourGraph& graph, double half_angle,
+                                                const ContourGraph& graph, double friction_angle,
                                                 std::string& difference);
 
 }  // namespace regrasp::contour

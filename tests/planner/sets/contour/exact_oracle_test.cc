@@ -18,11 +18,11 @@ namespace exact_oracle_test {
 
 constexpr std::uint64_t kSeed = 5;
 
-void Check(const object::Polygon& polygon, double half_angle, OracleCounts& total) {
-  const ContourGraph graph(polygon, half_angle);
+void Check(const object::Polygon& polygon, double friction_angle, OracleCounts& total) {
+  const ContourGraph graph(polygon, friction_angle);
   std::string difference;
-  total += CompareWithRationals(polygon, graph, half_angle, difference);
-  EXPECT_EQ(difference, "") << Degrees(half_angle) << "°";
+  total += CompareWithRationals(polygon, graph, friction_angle, difference);
+  EXPECT_EQ(difference, "") << Degrees(friction_angle) << "°";
 }
 
 TEST(ContourOracle, PiecesPassagesSetsAndSwitchesAreThoseOfRationalArithmetic) {
@@ -59,9 +59,10 @@ TEST(ContourOracle, DegeneratePolygonsAreDecidedExactlyBeforeAndAfterPerturbatio
     for (const auto& [how, step] : steps) {
       SCOPED_TRACE(name + ", " + how);
       const object::Polygon moved = Shaken(polygon, step, engine);
-      for (const double half_angle : {HalfAngleOf(0.25), HalfAngleOf(0.5), Radians(30),
-                                      HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
-        Check(moved, half_angle, total);
+      for (const double friction_angle :
+           {FrictionAngleOf(0.25), FrictionAngleOf(0.5), Radians(30), FrictionAngleOf(0.75),
+            Radians(45), FrictionAngleOf(1.5)}) {
+        Check(moved, friction_angle, total);
       }
     }
   }

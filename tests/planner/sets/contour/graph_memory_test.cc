@@ -73,7 +73,7 @@ TEST(ContourGraphMemory, TheEstimateOfAPlanIsWithinAFactorOfTwoOfWhatIsUsed) {
       static_cast<void>(PlanWith(ContourPlanner(), object.polygon, Random(), Random(), options));
     });
     const double estimate =
-        EstimateContourPlan(object.polygon, options.criteria.half_angle).bytes();
+        EstimateContourPlan(object.polygon, options.criteria.friction_angle).bytes();
     EXPECT_GT(used, 1e7) << object.name;
     EXPECT_GT(estimate, used / 2) << object.name;
     EXPECT_LT(estimate, used * 2) << object.name;

@@ -36,9 +36,9 @@ TEST(LargestSwitch, IsAsLargeAsAnyThatASearchFindsAndAsItSays) {
   constexpr int kOfSection = 16;
   int switches = 0;
   ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph& graph,
-                         double half_angle) {
+                         double friction_angle) {
     SetGeometry geometry(graph);
-    const SquareOracle oracle(polygon, half_angle);
+    const SquareOracle oracle(polygon, friction_angle);
     const double tolerance = SizeToleranceOf(polygon);
     for (const auto& [v, w] : graph.switches()) {
       const auto found = FindLargestSwitch(geometry, v, w);

@@ -76,7 +76,7 @@ std::vector<std::array<grasp::Grasp, 2>> SwitchGrasps(const plan::Plan& plan) {
 
 /// Return the sets that a plan passes.
 std::vector<sets::SetIndex> SetsOf(const object::Polygon& polygon, const plan::Plan& plan) {
-  const ContourGraph graph(polygon, plan.half_angle);
+  const ContourGraph graph(polygon, plan.friction_angle);
   const SetGeometry geometry(graph);
   std::vector<sets::SetIndex> sets;
   for (const auto& grasps : SwitchGrasps(plan)) {
@@ -167,7 +167,7 @@ TEST_P(PlanOnContourAt, InsideTheirRegionsContactsStandAnywhere) {
     const auto holds = [&](const grasp::Grasp& grasp, double x, double y) {
       return grasp::IsForceClosure(
           grasp::Grasp{Moved(boundary, grasp[0], x), Moved(boundary, grasp[1], y)},
-          polygon.wrench_frame(), result.plan->half_angle);
+          polygon.wrench_frame(), result.plan->friction_angle);
     };
     for (std::size_t i = 0; i < grasps.size(); ++i) {
       bool lost = false;

@@ -40,8 +40,8 @@ TEST(RegionMetric, SizesAreThoseOfSquaresWhoseCornersAreGrasps) {
   int points = 0;
   int beyond_a_piece = 0;
   ForEachRegionGraph(
-      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
-        const SquareOracle oracle(polygon, half_angle);
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double friction_angle) {
+        const SquareOracle oracle(polygon, friction_angle);
         const double tolerance = SizeToleranceOf(polygon);
         for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
           const RegionMetric metric(graph, set);
@@ -79,8 +79,8 @@ TEST(RegionDiagram, SizesAlongEveryEdgeAreThoseOfTheMetricAndOfTheCorners) {
   constexpr int kByCorners = 16;  // one of 16 edges is tested by corners
   int edges = 0;
   ForEachRegionGraph(
-      [&](const object::Polygon& polygon, const ContourGraph& graph, double half_angle) {
-        const SquareOracle oracle(polygon, half_angle);
+      [&](const object::Polygon& polygon, const ContourGraph& graph, double friction_angle) {
+        const SquareOracle oracle(polygon, friction_angle);
         const double tolerance = SizeToleranceOf(polygon);
         for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
           const RegionMetric metric(graph, set);
@@ -183,8 +183,8 @@ TEST(RegionDiagram, OfLessFrictionDoesNotHoldTheBestGrasp) {
 }
 
 TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
-  const auto largest_sizes = [](const object::Polygon& polygon, double half_angle) {
-    const ContourGraph graph(polygon, half_angle);
+  const auto largest_sizes = [](const object::Polygon& polygon, double friction_angle) {
+    const ContourGraph graph(polygon, friction_angle);
     std::vector<double> sizes;
     for (sets::SetIndex set{0}; set < graph.vertex_count(); ++set) {
       sizes.push_back(LargestSize(RegionMetric(graph, set).MakeDiagram()));
@@ -193,10 +193,11 @@ TEST(RegionDiagram, DoesNotDependOnWhereARingBegins) {
     return sizes;
   };
   int sets = 0;
-  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph&, double half_angle) {
-    const std::vector<double> sizes = largest_sizes(polygon, half_angle);
+  ForEachRegionGraph([&](const object::Polygon& polygon, const ContourGraph&,
+                         double friction_angle) {
+    const std::vector<double> sizes = largest_sizes(polygon, friction_angle);
     for (const int by : {1, 2, 3}) {
-      const std::vector<double> renumbered = largest_sizes(Renumbered(polygon, by), half_angle);
+      const std::vector<double> renumbered = largest_sizes(Renumbered(polygon, by), friction_angle);
       ASSERT_EQ(renumbered.size(), sizes.size());
       for (std::size_t i = 0; i < sizes.size(); ++i, ++sets) {
         EXPECT_NEAR(renumbered[i], sizes[i], SizeToleranceOf(polygon));

@@ -11,8 +11,8 @@ constexpr int kHalvings = 40;
 
 }  // namespace
 
-SquareOracle::SquareOracle(const object::Polygon& polygon, double half_angle)
-    : polygon_(polygon), half_angle_(half_angle) {
+SquareOracle::SquareOracle(const object::Polygon& polygon, double friction_angle)
+    : polygon_(polygon), friction_angle_(friction_angle) {
   int edge = 0;
   for (const auto& ring : polygon.rings()) {
     first_edge_.push_back(edge);
@@ -55,7 +55,7 @@ bool SquareOracle::Holds(int ring_a, double x, int ring_b, double y, double half
   for (const grasp::Contact& a : xs) {
     for (const grasp::Contact& b : ys) {
       if (a.face == b.face) return false;
-      const Sense sense = SenseOf(polygon_, half_angle_, a, b);
+      const Sense sense = SenseOf(polygon_, friction_angle_, a, b);
       if (sense != Sense::kSqueezing && sense != Sense::kStretching) return false;
       if (common == Sense::kNone) common = sense;
       if (sense != common) return false;

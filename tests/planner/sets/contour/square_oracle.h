@@ -11,7 +11,7 @@ namespace regrasp::contour {
 /// class shares only the definition of a place with the planner.
 class SquareOracle {
  public:
-  SquareOracle(const object::Polygon& polygon, double half_angle);
+  SquareOracle(const object::Polygon& polygon, double friction_angle);
 
   /// Return whether both contacts can move independently by `half_width` and stay a grasp in one
   /// sense.
@@ -33,7 +33,7 @@ class SquareOracle {
                                                        double half_width) const;
 
   const object::Polygon& polygon_;
-  double half_angle_;
+  double friction_angle_;
   std::vector<int> first_edge_;
   std::vector<double> perimeter_;
 };

@@ -29,10 +29,10 @@ Eigen::VectorXd ParametersOf(const object::Polygon& polygon, const grasp::Grasp&
 
 /// Decided by the certificates of the checker, which do not use grasp sets.
 bool IsForceClosureBetween(const object::Polygon& polygon, const grasp::Grasp& from,
-                           const grasp::Grasp& to, double half_angle) {
+                           const grasp::Grasp& to, double friction_angle) {
   motion::GraspMotion motion;
   for (std::size_t k = 0; k < from.size(); ++k) motion.emplace_back(from[k], to[k]);
-  return motion::DecidePathForceClosure(motion, polygon.wrench_frame(), half_angle).holds();
+  return motion::DecidePathForceClosure(motion, polygon.wrench_frame(), friction_angle).holds();
 }
 
 struct AlignCount {

@@ -25,12 +25,12 @@ std::vector<int> EdgesWithout(const std::vector<int>& edges, int edge) {
 
 }  // namespace
 
-BruteForce::BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
-                       planning::Spanning spanning, std::uint64_t seed)
+BruteForce::BruteForce(const object::Polygon& polygon, const PolygonGraph& graph,
+                       double friction_angle, planning::Spanning spanning, std::uint64_t seed)
     : hits(graph.vertex_count()),
       polygon_(polygon),
       graph_(graph),
-      half_angle_(half_angle),
+      friction_angle_(friction_angle),
       spanning_(spanning),
       engine_(seed) {
   std::vector<int> neighbours;
@@ -92,8 +92,8 @@ std::vector<int> BruteForce::Vertices(std::vector<Drawn> drawn) {
     edges.push_back(d.edge);
   }
   const auto kinds = grasp.size() == 2
-                         ? KindsOfTwo(grasp, half_angle_)
-                         : KindsOfThree(grasp, half_angle_, spanning_, polygon_.diameter());
+                         ? KindsOfTwo(grasp, friction_angle_)
+                         : KindsOfThree(grasp, friction_angle_, spanning_, polygon_.diameter());
   std::vector<int> vertices;
   for (const DirectKind& kind : kinds) {
     if (!kind.certain) {
@@ -101,7 +101,7 @@ std::vector<int> BruteForce::Vertices(std::vector<Drawn> drawn) {
       continue;
     }
     ++grasps;
-    if (grasp::TestForceClosure(grasp, polygon_.wrench_frame(), half_angle_).decision ==
+    if (grasp::TestForceClosure(grasp, polygon_.wrench_frame(), friction_angle_).decision ==
         grasp::Decision::kNo) {
       Fail("not force closure, type " + std::to_string(static_cast<int>(kind.type)));
     }
@@ -249,7 +249,7 @@ void BruteForce::CheckFocusPoint(int vertex, const Eigen::Vector2d& x) {
     std::sort(edges.begin(), edges.end());
     grasp::Grasp normals;
     for (const int e : edges) normals.push_back(At(e, 0.5));
-    const double phi = ConcurrentHalfAngle(normals, half_angle_, spanning_);
+    const double phi = ConcurrentFrictionAngle(normals, friction_angle_, spanning_);
     if (phi < kDirectMargin) return;
     std::vector<Drawn> drawn;
     int part = 0;

@@ -16,7 +16,7 @@ namespace regrasp::polygon {
 /// Compares random grasps of a polygon with its graph.
 class BruteForce {
  public:
-  BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double half_angle,
+  BruteForce(const object::Polygon& polygon, const PolygonGraph& graph, double friction_angle,
              planning::Spanning spanning, std::uint64_t seed);
 
   /// Draw pairs of contacts on every two edges, and a third contact on every other edge.
@@ -72,7 +72,7 @@ class BruteForce {
 
   const object::Polygon& polygon_;
   const PolygonGraph& graph_;
-  double half_angle_;
+  double friction_angle_;
   planning::Spanning spanning_;
   std::mt19937_64 engine_;
   std::map<Key, int> vertex_of_;

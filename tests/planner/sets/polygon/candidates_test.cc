@@ -48,7 +48,7 @@ double SpanningLimit(std::array<double, 3> angles) {
 
 class CandidatesTest : public testing::TestWithParam<double> {
  protected:
-  [[nodiscard]] double half_angle() const { return Radians(GetParam()); }
+  [[nodiscard]] double friction_angle() const { return Radians(GetParam()); }
 };
 
 TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
@@ -59,7 +59,7 @@ TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       const object::Polygon polygon = Irregular(17, seed);
       const IntervalScope scope;
-      const EdgeTable edges(polygon, std::tan(half_angle()));
+      const EdgeTable edges(polygon, std::tan(friction_angle()));
       const auto candidates = FindConcurrentCandidates(edges, spanning);
       EXPECT_TRUE(std::is_sorted(candidates.begin(), candidates.end(),
                                  [](const auto& a, const auto& b) { return a.edges < b.edges; }));
@@ -70,14 +70,14 @@ TEST_P(CandidatesTest, ConcurrentOnesAreTheTriplesWhoseNormalsSpan) {
             const EdgeTriple triple = {FaceIndex(i), FaceIndex(j), FaceIndex(k)};
             const double limit = SpanningLimit(
                 {NormalAngle(polygon, i), NormalAngle(polygon, j), NormalAngle(polygon, k)});
-            const double needed = spanning == planning::Spanning::kUniform ? half_angle() : 0;
+            const double needed = spanning == planning::Spanning::kUniform ? friction_angle() : 0;
             const bool listed = next < candidates.size() && candidates[next].edges == triple;
             if (std::abs(limit - needed) > kTooClose) {
               EXPECT_EQ(listed, limit > needed) << i << ' ' << j << ' ' << k;
             }
             ++(listed ? found : refused);
             if (!listed) continue;
-            const double tangent = std::tan(std::min(limit, half_angle()));
+            const double tangent = std::tan(std::min(limit, friction_angle()));
             EXPECT_NEAR(candidates[next].tangent, tangent, 1e-12 * (1 + tangent));
             EXPECT_LE(candidates[next].tangent, edges.tangent());
             ++next;
@@ -98,15 +98,15 @@ TEST_P(CandidatesTest, TwoFingerOnesAreThePairsOfNearlyOppositeNormals) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const object::Polygon polygon = Irregular(23, seed);
     const IntervalScope scope;
-    const auto candidates = FindTwoFingerCandidates(EdgeTable(polygon, std::tan(half_angle())));
+    const auto candidates = FindTwoFingerCandidates(EdgeTable(polygon, std::tan(friction_angle())));
     const std::set<TwoFingerCandidate> listed(candidates.begin(), candidates.end());
     EXPECT_EQ(listed.size(), candidates.size());
     for (int i = 0; i < 23; ++i) {
       for (int j = i + 1; j < 23; ++j) {
         const double apart = Between(NormalAngle(polygon, i) + kPi, NormalAngle(polygon, j));
-        if (std::abs(apart - 2 * half_angle()) < kTooClose) continue;
+        if (std::abs(apart - 2 * friction_angle()) < kTooClose) continue;
         const TwoFingerCandidate pair = {FaceIndex(i), FaceIndex(j)};
-        EXPECT_EQ(listed.contains(pair), apart < 2 * half_angle()) << i << ' ' << j;
+        EXPECT_EQ(listed.contains(pair), apart < 2 * friction_angle()) << i << ' ' << j;
         found += listed.contains(pair) ? 1 : 0;
       }
     }
@@ -116,13 +116,13 @@ TEST_P(CandidatesTest, TwoFingerOnesAreThePairsOfNearlyOppositeNormals) {
 
 /// Return whether some direction is in the interiors of all three cones, by sampling; nullopt if it
 /// is uncertain.
-std::optional<bool> HaveCommonDirection(const std::array<double, 3>& axes, double half_angle) {
+std::optional<bool> HaveCommonDirection(const std::array<double, 3>& axes, double friction_angle) {
   double best = -kPi;
   constexpr int kDirections = 7200;
   for (int k = 0; k < kDirections; ++k) {
     const double w = 2 * kPi * k / kDirections;
     double slack = kPi;
-    for (const double axis : axes) slack = std::min(slack, half_angle - Between(axis, w));
+    for (const double axis : axes) slack = std::min(slack, friction_angle - Between(axis, w));
     best = std::max(best, slack);
   }
   if (std::abs(best) < kPi / kDirections) return std::nullopt;
@@ -136,7 +136,7 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const object::Polygon polygon = Irregular(n, seed);
     const IntervalScope scope;
-    const auto candidates = FindParallelCandidates(EdgeTable(polygon, std::tan(half_angle())));
+    const auto candidates = FindParallelCandidates(EdgeTable(polygon, std::tan(friction_angle())));
     std::set<EdgeTriple> triples;
     std::set<std::pair<EdgeTriple, int>> listed;
     for (const ParallelCandidate& c : candidates) {
@@ -152,7 +152,7 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
             for (int m = 0; m < 3; ++m) {
               axes[m] = NormalAngle(polygon, triple[m]) + (m == centre ? kPi : 0);
             }
-            const auto meet = HaveCommonDirection(axes, half_angle());
+            const auto meet = HaveCommonDirection(axes, friction_angle());
             if (!meet) continue;
             EXPECT_EQ(listed.contains({triple, centre}), *meet)
                 << i << ' ' << j << ' ' << k << " centre " << centre;
@@ -166,7 +166,7 @@ TEST_P(CandidatesTest, ParallelOnesHaveACommonCone) {
   EXPECT_GT(refused, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(HalfAngles, CandidatesTest, testing::Values(10, 20, 35, 50, 65, 80));
+INSTANTIATE_TEST_SUITE_P(FrictionAngles, CandidatesTest, testing::Values(10, 20, 35, 50, 65, 80));
 
 }  // namespace candidates_test
 }  // namespace regrasp::polygon

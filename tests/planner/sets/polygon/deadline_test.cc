@@ -11,8 +11,8 @@ namespace regrasp::polygon {
 namespace deadline_test {
 
 /// Return the number of deadline checks for listing the candidates of all types.
-int LooksForCandidates(const object::Polygon& polygon, double half_angle) {
-  const double tangent = std::tan(half_angle);
+int LooksForCandidates(const object::Polygon& polygon, double friction_angle) {
+  const double tangent = std::tan(friction_angle);
   const IntervalScope scope;
   const EdgeTable edges(polygon, tangent);
   const CountedDeadline never;

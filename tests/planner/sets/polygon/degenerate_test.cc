@@ -25,13 +25,14 @@ struct Checked {
   TwoFingerCount two_finger;
 };
 
-void Check(const object::Polygon& polygon, double half_angle, planning::Spanning spanning,
+void Check(const object::Polygon& polygon, double friction_angle, planning::Spanning spanning,
            Checked& total) {
-  const PolygonGraph graph(polygon, half_angle, spanning);
+  const PolygonGraph graph(polygon, friction_angle, spanning);
   std::string difference;
-  total.concurrent += CompareWithSetOperations(polygon, graph, half_angle, spanning, difference);
+  total.concurrent +=
+      CompareWithSetOperations(polygon, graph, friction_angle, spanning, difference);
   EXPECT_EQ(difference, "");
-  const TwoFingerCount count = CompareTwoFingerSets(polygon, graph, half_angle, difference);
+  const TwoFingerCount count = CompareTwoFingerSets(polygon, graph, friction_angle, difference);
   EXPECT_EQ(difference, "");
   total.two_finger.candidates += count.candidates;
   total.two_finger.sets += count.sets;
@@ -66,12 +67,12 @@ TEST(Degenerate, CountsAreExactBeforeAndAfterPerturbation) {
   for (const auto& [name, polygon] : DegeneratePolygons()) {
     for (const auto& [how, step] : steps) {
       const object::Polygon moved = Shaken(polygon, step, engine);
-      for (const double half_angle :
-           {HalfAngleOf(0.25), Radians(30), HalfAngleOf(0.75), Radians(45), HalfAngleOf(1.5)}) {
+      for (const double friction_angle : {FrictionAngleOf(0.25), Radians(30), FrictionAngleOf(0.75),
+                                          Radians(45), FrictionAngleOf(1.5)}) {
         for (const planning::Spanning spanning : kSpannings) {
-          SCOPED_TRACE(name + ", " + how + ", " + std::to_string(Degrees(half_angle)) + "° " +
+          SCOPED_TRACE(name + ", " + how + ", " + std::to_string(Degrees(friction_angle)) + "° " +
                        Name(spanning));
-          Check(moved, half_angle, spanning, total);
+          Check(moved, friction_angle, spanning, total);
         }
       }
     }

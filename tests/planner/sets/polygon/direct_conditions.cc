@@ -51,8 +51,8 @@ std::vector<Vector2d> Clip(const std::vector<Vector2d>& polygon, const Vector2d&
 
 /// Return whether the cones on the given sides have a common interior if every border is moved
 /// outward by `by`.
-bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_angle, double size,
-               double by) {
+bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double friction_angle,
+               double size, double by) {
   const Vector2d middle = Planar(contacts[0].p);
   const double half = kSquare * size;
   std::vector<Vector2d> rest = {middle + Vector2d(-half, -half), middle + Vector2d(half, -half),
@@ -61,8 +61,8 @@ bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_
     const double side = (sides >> k & 1) != 0 ? -1 : 1;
     const Vector2d n = side * Planar(contacts[k].n);
     const Vector2d p = Planar(contacts[k].p);
-    rest = Clip(rest, p, Eigen::Rotation2Dd(-half_angle) * n, by);
-    rest = Clip(rest, p, -(Eigen::Rotation2Dd(half_angle) * n), by);
+    rest = Clip(rest, p, Eigen::Rotation2Dd(-friction_angle) * n, by);
+    rest = Clip(rest, p, -(Eigen::Rotation2Dd(friction_angle) * n), by);
   }
   return !rest.empty();
 }
@@ -71,13 +71,13 @@ bool ConesMeet(std::span<const grasp::Contact> contacts, int sides, double half_
 /// ends.
 std::optional<std::array<double, 2>> CommonDirections(const grasp::Contact& a,
                                                       const grasp::Contact& b,
-                                                      const grasp::Contact& c, double half_angle,
-                                                      double by) {
+                                                      const grasp::Contact& c,
+                                                      double friction_angle, double by) {
   const double zero = Angle(-Planar(a.n));
   const double beta = Wrap(Angle(Planar(b.n)) - zero);
   const double gamma = Wrap(Angle(Planar(c.n)) - zero);
-  const double low = std::max({0.0, beta, gamma}) - half_angle - by;
-  const double high = std::min({0.0, beta, gamma}) + half_angle + by;
+  const double low = std::max({0.0, beta, gamma}) - friction_angle - by;
+  const double high = std::min({0.0, beta, gamma}) + friction_angle + by;
   if (low >= high) return std::nullopt;
   return std::array{low, high};
 }
@@ -85,8 +85,8 @@ std::optional<std::array<double, 2>> CommonDirections(const grasp::Contact& a,
 /// Return the largest distance of two outer lines on different sides from the centre's line; −1 if
 /// there are none.
 double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const grasp::Contact& c,
-                      double half_angle, double by) {
-  const auto directions = CommonDirections(a, b, c, half_angle, by);
+                      double friction_angle, double by) {
+  const auto directions = CommonDirections(a, b, c, friction_angle, by);
   if (!directions) return -1;
   const double zero = Angle(-Planar(a.n));
   const Vector2d to_b = Planar(b.p - a.p);
@@ -113,21 +113,23 @@ double ParallelMargin(const grasp::Contact& a, const grasp::Contact& b, const gr
 
 }  // namespace
 
-double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts, double half_angle,
-                           planning::Spanning spanning) {
+double ConcurrentFrictionAngle(std::span<const grasp::Contact> contacts, double friction_angle,
+                               planning::Spanning spanning) {
   const double excess = SpanningExcess(contacts);
-  if (spanning == planning::Spanning::kUniform) return excess > 2 * half_angle ? half_angle : 0;
-  return std::max(0.0, std::min(half_angle, excess / 2));
+  if (spanning == planning::Spanning::kUniform)
+    return excess > 2 * friction_angle ? friction_angle : 0;
+  return std::max(0.0, std::min(friction_angle, excess / 2));
 }
 
-std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts, double half_angle) {
+std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts,
+                                   double friction_angle) {
   const Vector2d v = Planar(contacts[1].p - contacts[0].p);
   const Vector2d na = Planar(contacts[0].n);
   const Vector2d nb = Planar(contacts[1].n);
   std::vector<DirectKind> kinds;
   for (const int part : {0, 1}) {
     const Vector2d to_b = part == 0 ? v : Vector2d(-v);
-    const double margin = half_angle - std::max(Between(na, to_b), Between(nb, -to_b));
+    const double margin = friction_angle - std::max(Between(na, to_b), Between(nb, -to_b));
     if (margin > -kDirectMargin) {
       kinds.push_back({GraspType::kTwoFinger, part, margin > kDirectMargin});
     }
@@ -135,13 +137,15 @@ std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts, dou
   return kinds;
 }
 
-std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts, double half_angle,
-                                     planning::Spanning spanning, double size) {
+std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts,
+                                     double friction_angle, planning::Spanning spanning,
+                                     double size) {
   std::vector<DirectKind> kinds;
   const double margin = kDirectMargin * size;
-  const bool spans_clearly = spanning == planning::Spanning::kAdaptive ||
-                             std::abs(SpanningExcess(contacts) - 2 * half_angle) > kDirectMargin;
-  const double phi = ConcurrentHalfAngle(contacts, half_angle, spanning);
+  const bool spans_clearly =
+      spanning == planning::Spanning::kAdaptive ||
+      std::abs(SpanningExcess(contacts) - 2 * friction_angle) > kDirectMargin;
+  const double phi = ConcurrentFrictionAngle(contacts, friction_angle, spanning);
   for (int sides = 0; sides < 8 && phi > 0; ++sides) {
     if (!ConesMeet(contacts, sides, phi, size, margin)) continue;
     const bool certain = spans_clearly && ConesMeet(contacts, sides, phi, size, -margin);
@@ -151,8 +155,8 @@ std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts, d
     const grasp::Contact& a = contacts[centre];
     const grasp::Contact& b = contacts[(centre + 1) % 3];
     const grasp::Contact& c = contacts[(centre + 2) % 3];
-    if (ParallelMargin(a, b, c, half_angle, kDirectMargin) < 0) continue;
-    const bool certain = ParallelMargin(a, b, c, half_angle, -kDirectMargin) > margin;
+    if (ParallelMargin(a, b, c, friction_angle, kDirectMargin) < 0) continue;
+    const bool certain = ParallelMargin(a, b, c, friction_angle, -kDirectMargin) > margin;
     kinds.push_back({GraspType::kParallel, centre, certain});
   }
   return kinds;

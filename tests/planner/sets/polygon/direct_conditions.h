@@ -25,15 +25,15 @@ inline constexpr double kDirectMargin = 1e-9;
 
 /// Return the angle φ of the cones of three contacts in concurrent grasps; 0 if their normals do
 /// not span.
-[[nodiscard]] double ConcurrentHalfAngle(std::span<const grasp::Contact> contacts,
-                                         double half_angle, planning::Spanning spanning);
+[[nodiscard]] double ConcurrentFrictionAngle(std::span<const grasp::Contact> contacts,
+                                             double friction_angle, planning::Spanning spanning);
 
 /// Return the kinds of two contacts.
 ///
 /// In a grasp from outside, each contact is in the cone of its opposite. In a stretching grasp,
 /// each contact is in the reversed cone.
 [[nodiscard]] std::vector<DirectKind> KindsOfTwo(std::span<const grasp::Contact> contacts,
-                                                 double half_angle);
+                                                 double friction_angle);
 
 /// Return the kinds of three contacts.
 ///
@@ -42,7 +42,7 @@ inline constexpr double kDirectMargin = 1e-9;
 /// and C(n_c) for which the lines along w through p_b and p_c are on different sides of the line
 /// through p_a. The part is a.
 [[nodiscard]] std::vector<DirectKind> KindsOfThree(std::span<const grasp::Contact> contacts,
-                                                   double half_angle, planning::Spanning spanning,
-                                                   double size);
+                                                   double friction_angle,
+                                                   planning::Spanning spanning, double size);
 
 }  // namespace regrasp::polygon

@@ -101,13 +101,13 @@ OracleCount& OracleCount::operator+=(const OracleCount& other) {
 }
 
 OracleCount CompareWithSetOperations(const object::Polygon& polygon, const PolygonGraph& graph,
-                                     double half_angle, planning::Spanning spanning,
+                                     double friction_angle, planning::Spanning spanning,
                                      std::string& difference) {
   std::ostringstream out;
   OracleCount count;
   std::vector<SetCandidate> candidates = spanning == planning::Spanning::kUniform
-                                             ? FindUniformCandidates(polygon, half_angle)
-                                             : FindAdaptiveCandidates(polygon, half_angle);
+                                             ? FindUniformCandidates(polygon, friction_angle)
+                                             : FindAdaptiveCandidates(polygon, friction_angle);
   std::map<std::vector<FaceIndex>, double> tangents;
   for (const SetCandidate& c : candidates) tangents[{c.edges.begin(), c.edges.end()}] = c.tangent;
   for (const GraspSet& set : graph.sets()) {

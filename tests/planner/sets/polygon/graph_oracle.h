@@ -25,7 +25,7 @@ struct OracleCount {
 /// between them.
 /// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] OracleCount CompareWithSetOperations(const object::Polygon& polygon,
-                                                   const PolygonGraph& graph, double half_angle,
+                                                   const PolygonGraph& graph, double friction_angle,
                                                    planning::Spanning spanning,
                                                    std::string& difference);
 

@@ -20,8 +20,8 @@ using Parameters = std::array<double, 3>;
 /// direction of the common cone, b and c are on different sides of the line through a.
 class ParallelOracle {
  public:
-  ParallelOracle(const object::Polygon& polygon, double half_angle)
-      : polygon_(polygon), half_angle_(half_angle) {}
+  ParallelOracle(const object::Polygon& polygon, double friction_angle)
+      : polygon_(polygon), friction_angle_(friction_angle) {}
 
   [[nodiscard]] bool IsParallel(const Triple& triple, int centre, const Parameters& u) const {
     const int b = centre == 0 ? 1 : 0;
@@ -31,7 +31,7 @@ class ParallelOracle {
     constexpr int kDirections = 200;
     for (int k = 0; k < kDirections; ++k) {
       // Densely sampled directions of the cone about −n of the centre.
-      const double turn = half_angle_ * ((2 * k + 1.0) / kDirections - 1);
+      const double turn = friction_angle_ * ((2 * k + 1.0) / kDirections - 1);
       const Eigen::Vector2d w = Eigen::Rotation2D<double>(turn) * -Normal(triple[centre]);
       if (!InCone(triple[b], w) || !InCone(triple[c], w)) continue;
       if (Cross(w, to_b) * Cross(w, to_c) < 0) return true;
@@ -51,11 +51,11 @@ class ParallelOracle {
     return (a + u * (b - a)).head<2>();
   }
   [[nodiscard]] bool InCone(int edge, const Eigen::Vector2d& w) const {
-    return w.dot(Normal(edge)) > std::cos(half_angle_);
+    return w.dot(Normal(edge)) > std::cos(friction_angle_);
   }
 
   const object::Polygon& polygon_;
-  double half_angle_;
+  double friction_angle_;
 };
 
 bool Contains(const std::vector<FilteredRegion>& regions, double x, double y, double slack) {
@@ -103,7 +103,7 @@ class ParallelTest : public testing::TestWithParam<double> {
     }
     return centres;
   }
-  [[nodiscard]] double half_angle() const { return Radians(GetParam()); }
+  [[nodiscard]] double friction_angle() const { return Radians(GetParam()); }
 };
 
 TEST_P(ParallelTest, GraspsOfTheDefinitionLieInTheSetAndItsProjections) {
@@ -114,8 +114,8 @@ TEST_P(ParallelTest, GraspsOfTheDefinitionLieInTheSetAndItsProjections) {
   int sets = 0;
   int unseen = 0;
   for (const object::Polygon& polygon : Polygons()) {
-    const double tangent = std::tan(half_angle());
-    const ParallelOracle oracle(polygon, half_angle());
+    const double tangent = std::tan(friction_angle());
+    const ParallelOracle oracle(polygon, friction_angle());
     const IntervalScope scope;
     const EdgeTable edges(polygon, tangent);
     for (const auto& [triple, centres] : Candidates(edges)) {
@@ -169,9 +169,9 @@ TEST_P(ParallelTest, WhatTheProjectionsHoldBelongsToAGrasp) {
   int outside = 0;
   int missed = 0;
   for (const object::Polygon& polygon : Polygons()) {
-    const ParallelOracle oracle(polygon, half_angle());
+    const ParallelOracle oracle(polygon, friction_angle());
     const IntervalScope scope;
-    const EdgeTable edges(polygon, std::tan(half_angle()));
+    const EdgeTable edges(polygon, std::tan(friction_angle()));
     for (const auto& [triple, centres] : Candidates(edges)) {
       const int centre = centres.front();
       const auto found = FindParallelSets(edges, {triple, {centre}});
@@ -210,9 +210,9 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
   int several = 0;
   int shared = 0;
   for (const object::Polygon& polygon : Polygons()) {
-    const ParallelOracle oracle(polygon, half_angle());
+    const ParallelOracle oracle(polygon, friction_angle());
     const IntervalScope scope;
-    const EdgeTable edges(polygon, std::tan(half_angle()));
+    const EdgeTable edges(polygon, std::tan(friction_angle()));
     for (const auto& [triple, centres] : Candidates(edges)) {
       if (centres.size() < 2) continue;
       ++several;
@@ -248,7 +248,7 @@ TEST_P(ParallelTest, CentresWhoseSetsShareGraspsAreOneSet) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(HalfAngles, ParallelTest, testing::Values(20, 35, 50, 70));
+INSTANTIATE_TEST_SUITE_P(FrictionAngles, ParallelTest, testing::Values(20, 35, 50, 70));
 
 }  // namespace parallel_test
 }  // namespace regrasp::polygon

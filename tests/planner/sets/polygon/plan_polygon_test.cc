@@ -96,7 +96,7 @@ TEST_P(PlanOnPolygonAt, LeadsFromEveryTypeToEveryType) {
   RecordProperty("apart", apart);
 }
 
-INSTANTIATE_TEST_SUITE_P(HalfAngles, PlanOnPolygonAt, testing::Values(10.0, 20.0, 40.0, 50.0),
+INSTANTIATE_TEST_SUITE_P(FrictionAngles, PlanOnPolygonAt, testing::Values(10.0, 20.0, 40.0, 50.0),
                          [](const auto& info) {
                            return std::to_string(static_cast<int>(info.param)) + "degrees";
                          });

@@ -17,7 +17,7 @@ namespace touching_test {
 constexpr double kTangent = 0.25;
 
 /// Return the angle whose tangent is exactly this double.
-double HalfAngle() {
+double FrictionAngle() {
   double angle = std::atan(kTangent);
   while (std::tan(angle) > kTangent) angle = std::nextafter(angle, 0);
   while (std::tan(angle) < kTangent) angle = std::nextafter(angle, 1);
@@ -45,9 +45,10 @@ bool Joined(const PolygonGraph& graph, int a, int b) {
 void ExpectOraclesAgree(const object::Polygon& polygon, const PolygonGraph& graph,
                         planning::Spanning spanning) {
   std::string difference;
-  EXPECT_GT(CompareWithSetOperations(polygon, graph, HalfAngle(), spanning, difference).cells, 0);
+  EXPECT_GT(CompareWithSetOperations(polygon, graph, FrictionAngle(), spanning, difference).cells,
+            0);
   EXPECT_EQ(difference, "");
-  EXPECT_GT(CompareTwoFingerSets(polygon, graph, HalfAngle(), difference).candidates, 0);
+  EXPECT_GT(CompareTwoFingerSets(polygon, graph, FrictionAngle(), difference).candidates, 0);
   EXPECT_EQ(difference, "");
 }
 
@@ -78,7 +79,7 @@ TEST(Touching, CellsThatTouchInAPointAreNotJoined) {
                                                                  {-1, top},
                                                                  {-1.25, foot}}},
                                                                "house");
-      const PolygonGraph graph(house, HalfAngle(), spanning);
+      const PolygonGraph graph(house, FrictionAngle(), spanning);
       const int a = VertexOn(graph, GraspType::kConcurrent, {kLeft, kSlopes[0], kSlopes[1]});
       const int b = VertexOn(graph, GraspType::kConcurrent, {kRight, kSlopes[0], kSlopes[1]});
       ASSERT_GE(a, 0);
@@ -97,7 +98,7 @@ TEST(Touching, CellsThatTouchAlongASegmentAreNotJoined) {
     SCOPED_TRACE(apart);
     const object::Polygon polygon = object::Polygon::FromRings(
         {{{0, 0}, {1, 0}, {2.875, -1 - apart}, {4, 0}, {3, 2}, {-0.4, 3.6}, {-0.8, 3.2}}}, "turn");
-    const PolygonGraph graph(polygon, HalfAngle(), planning::Spanning::kUniform);
+    const PolygonGraph graph(polygon, FrictionAngle(), planning::Spanning::kUniform);
     const int a = VertexOn(graph, GraspType::kConcurrent, {0, 3, 5});
     const int b = VertexOn(graph, GraspType::kConcurrent, {1, 3, 5});
     ASSERT_GE(a, 0);
@@ -125,12 +126,12 @@ TEST(Touching, ContactsThatTouchDoNotJoinAParallelAndATwoFingerSet) {
                                                                 {0.25, 2},
                                                                 {0, 2}}},
                                                               "hall");
-      const PolygonGraph graph(hall, HalfAngle(), spanning);
+      const PolygonGraph graph(hall, FrictionAngle(), spanning);
       const int parallel = VertexOn(graph, GraspType::kParallel, {0, 5, 8});
-      const int squeeze = VertexOn(graph, GraspType::kTwoFinger, {0, 2});
+      const int grasp_force = VertexOn(graph, GraspType::kTwoFinger, {0, 2});
       ASSERT_GE(parallel, 0);
-      ASSERT_GE(squeeze, 0);
-      EXPECT_EQ(Joined(graph, parallel, squeeze), apart < 0);
+      ASSERT_GE(grasp_force, 0);
+      EXPECT_EQ(Joined(graph, parallel, grasp_force), apart < 0);
       ExpectOraclesAgree(hall, graph, spanning);
     }
   }

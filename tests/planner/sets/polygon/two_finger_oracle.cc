@@ -47,10 +47,10 @@ Range SeenRange(const SetCell& cell, const Edge& edge, double tangent) {
 }  // namespace
 
 TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon, const PolygonGraph& graph,
-                                    double half_angle, std::string& difference) {
+                                    double friction_angle, std::string& difference) {
   std::ostringstream out;
   TwoFingerCount count;
-  const double tangent = std::tan(half_angle);
+  const double tangent = std::tan(friction_angle);
   const int n = polygon.face_count();
   std::vector<Edge> edges;
   for (int e = 0; e < n; ++e) edges.push_back(exact::MakeEdge<Number>(polygon, e, tangent));

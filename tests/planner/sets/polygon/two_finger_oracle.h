@@ -21,7 +21,7 @@ struct TwoFingerCount {
 /// concurrent sets come from CGAL's Boolean operations.
 /// @param difference  output: all differences as text; empty if there are none.
 [[nodiscard]] TwoFingerCount CompareTwoFingerSets(const object::Polygon& polygon,
-                                                  const PolygonGraph& graph, double half_angle,
+                                                  const PolygonGraph& graph, double friction_angle,
                                                   std::string& difference);
 
 }  // namespace regrasp::polygon

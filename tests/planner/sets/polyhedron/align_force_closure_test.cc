@@ -53,7 +53,7 @@ std::vector<PlanningCase> Cases(const std::vector<NamedBody>& bodies) {
                         &named.body,
                         {},
                         {}};
-      made.options.criteria.half_angle = Radians(degrees);
+      made.options.criteria.friction_angle = Radians(degrees);
       made.options.parameters.Edit<sets::SetParameters>().spanning = spanning;
       made.graph = std::make_unique<PolyhedronGraph>(named.body, Radians(degrees), spanning);
       if (made.graph->vertex_count() > 0) cases.push_back(std::move(made));
@@ -70,7 +70,7 @@ struct Tally {
 };
 
 /// Test every sampled grasp between waypoints with the common force-closure function.
-Tally Walk(const plan::Align& align, const object::WrenchFrame& frame, double half_angle) {
+Tally Walk(const plan::Align& align, const object::WrenchFrame& frame, double friction_angle) {
   Tally tally{1};
   for (std::size_t w = 0; w + 1 < align.waypoints.size(); ++w) {
     motion::GraspMotion motion;
@@ -82,7 +82,7 @@ Tally Walk(const plan::Align& align, const object::WrenchFrame& frame, double ha
     for (int i = 0; i < kSamples; ++i) {
       const double t = static_cast<double>(i) / (kSamples - 1);
       tally.not_closed +=
-          grasp::IsForceClosure(motion::GraspAt(motion, t), frame, half_angle) ? 0 : 1;
+          grasp::IsForceClosure(motion::GraspAt(motion, t), frame, friction_angle) ? 0 : 1;
       ++tally.grasps;
     }
   }
@@ -132,7 +132,8 @@ TEST(AlignsOfPolyhedra, EveryGraspAlongEveryAlignOfTwoHundredPlansIsForceClosure
       const auto* align = std::get_if<plan::Align>(&step);
       if (!align) continue;
       EXPECT_GE(align->waypoints.size(), 2u);
-      const Tally walked = Walk(*align, one.body->wrench_frame(), one.options.criteria.half_angle);
+      const Tally walked =
+          Walk(*align, one.body->wrench_frame(), one.options.criteria.friction_angle);
       EXPECT_EQ(walked.not_closed, 0);
       Add(walked, all);
       ++aligns_of_body[one.name.substr(0, one.name.find(','))];
@@ -175,12 +176,13 @@ TEST(AlignsOfPolyhedra, AWayWithAContactPushedOffIsFoundNotForceClosure) {
       grasp::Contact& contact = grasp.front().contact;
       contact.p += 1000 * one.body->diameter() * contact.n.unitOrthogonal();
     }
-    const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.half_angle);
+    const Tally walked = Walk(off, one.body->wrench_frame(), one.options.criteria.friction_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
     // A single invalid waypoint between valid ones makes the path invalid.
     plan::Align bent = align;
     bent.waypoints.insert(bent.waypoints.begin() + 1, off.waypoints.front());
-    EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.half_angle).not_closed, 0);
+    EXPECT_GT(Walk(bent, one.body->wrench_frame(), one.options.criteria.friction_angle).not_closed,
+              0);
   });
   EXPECT_GE(pushed, 20);
 }
@@ -190,7 +192,7 @@ TEST(AlignsOfPolyhedra, AWayWithAContactOnTheWrongSideIsFoundNotForceClosure) {
     // A contact normal that points out of the object instead of into it.
     plan::Align wrong = align;
     for (plan::FingerGrasp& grasp : wrong.waypoints) grasp.front().contact.n *= -1;
-    const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.criteria.half_angle);
+    const Tally walked = Walk(wrong, one.body->wrench_frame(), one.options.criteria.friction_angle);
     EXPECT_EQ(walked.not_closed, walked.grasps);
   });
   EXPECT_GE(turned, 20);

@@ -13,7 +13,7 @@ namespace graph_memory_test {
 
 using ::testing::HasSubstr;
 
-const double kHalfAngle = Radians(15);
+const double kFrictionAngle = Radians(15);
 
 #if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps freed memory
 TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
@@ -21,10 +21,10 @@ TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
     const object::Polyhedron solid = ReadSolidModel(file);
     const double used = PeakBytesOf([&] {
       static_cast<void>(
-          PolyhedronGraph(solid, kHalfAngle, planning::Spanning::kAdaptive).vertex_count());
+          PolyhedronGraph(solid, kFrictionAngle, planning::Spanning::kAdaptive).vertex_count());
     });
     const double estimate =
-        EstimatePolyhedronGraph(solid, kHalfAngle, planning::Spanning::kAdaptive).bytes();
+        EstimatePolyhedronGraph(solid, kFrictionAngle, planning::Spanning::kAdaptive).bytes();
     ASSERT_GT(used, 4e6) << file;
     EXPECT_GT(estimate, used / 2) << file;
     EXPECT_LT(estimate, used * 2) << file;
@@ -35,7 +35,7 @@ TEST(PolyhedronGraphMemory, TheEstimateIsWithinAFactorOfTwoOfWhatIsUsed) {
 TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
   double last = 0;
   for (const int n : {8, 16, 32, 64, 128, 256, 512}) {
-    const MemoryNeed need = EstimatePolyhedronGraph(MakeStone(n, {1, 1.2, 0.8}, 1), kHalfAngle,
+    const MemoryNeed need = EstimatePolyhedronGraph(MakeStone(n, {1, 1.2, 0.8}, 1), kFrictionAngle,
                                                     planning::Spanning::kAdaptive);
     EXPECT_EQ(need.count, n);
     EXPECT_GT(need.bytes(), last) << n;
@@ -46,7 +46,7 @@ TEST(PolyhedronGraphMemory, TheEstimateGrowsWithTheFaces) {
 
 TEST(PolyhedronGraphMemory, APlanOnAGraphThatDoesNotFitIsNone) {
   planning::PlanRequest options;
-  options.criteria.half_angle = kHalfAngle;
+  options.criteria.friction_angle = kFrictionAngle;
   options.memory = 1e9;
   const planning::PlanResult result =
       PlanWith(PolyhedronPlanner(), MakeStone(300, {1, 1, 1}, 1), Random(), Random(), options);

@@ -112,8 +112,8 @@ TEST(PlanOnPolyhedron, EveryRandomGraspIsForceClosureAndLocatedInItsCell) {
         EXPECT_TRUE(
             grasp::IsForceClosure(model.GraspOf(*grasp), body.wrench_frame(), Radians(degrees)))
             << name << ", cell " << cell;
-        const auto located = model.Attach(model.GraspOf(*grasp));
-        EXPECT_TRUE(std::ranges::any_of(located, [&](const auto& a) { return a.set == cell; }))
+        const auto projected = model.Attach(model.GraspOf(*grasp));
+        EXPECT_TRUE(std::ranges::any_of(projected, [&](const auto& a) { return a.set == cell; }))
             << name << ", cell " << cell;
         ++drawn;
       }

@@ -110,13 +110,13 @@ class GraspDraw {
 };
 
 bool IsHeld(const object::Polyhedron& body, const std::array<Seen, 4>& grasp,
-            const FaceQuadruple& faces, double half_angle) {
+            const FaceQuadruple& faces, double friction_angle) {
   std::vector<grasp::Contact> contacts;
   for (std::size_t k = 0; k < grasp.size(); ++k) {
     contacts.push_back(
         {grasp[k].contact, body.inward_normal(FaceIndex(faces[k])), FaceIndex(faces[k])});
   }
-  return grasp::IsForceClosure(contacts, body.wrench_frame(), half_angle);
+  return grasp::IsForceClosure(contacts, body.wrench_frame(), friction_angle);
 }
 
 struct Count {
@@ -130,15 +130,15 @@ class GraspOracle {
  public:
   GraspOracle(const object::Polyhedron& body, double degrees, planning::Spanning spanning)
       : body_(body),
-        half_angle_(Radians(degrees)),
-        graph_(body, half_angle_, spanning),
+        friction_angle_(Radians(degrees)),
+        graph_(body, friction_angle_, spanning),
         draw_(body, graph_.finder().parts()) {
     for (int cell = 0; cell < graph_.vertex_count(); ++cell) {
       for (const FocusPiece& piece : graph_.cells()[cell].pieces) cell_of_[piece.halves] = cell;
     }
     std::vector<Vector3d> normals;
     for (FaceIndex f{0}; f < body.face_count(); ++f) normals.push_back(body.inward_normal(f));
-    candidates_ = FindQuadrupleCandidates(normals, std::tan(half_angle_), spanning);
+    candidates_ = FindQuadrupleCandidates(normals, std::tan(friction_angle_), spanning);
   }
 
   /// Check that every grasp of contacts seen by random focus points is in a cell.
@@ -148,7 +148,7 @@ class GraspOracle {
       std::vector<std::vector<Seen>> seen(body_.face_count());
       for (FaceIndex face{0}; face < body_.face_count(); ++face) {
         for (int k = 0; k < kDirections; ++k) {
-          if (const auto contact = draw_.See(face, std::tan(half_angle_), focus)) {
+          if (const auto contact = draw_.See(face, std::tan(friction_angle_), focus)) {
             seen[face].push_back(*contact);
           }
         }
@@ -180,7 +180,7 @@ class GraspOracle {
         }
         EXPECT_TRUE(found) << "depth " << deepest->value;
         if (!found) continue;
-        EXPECT_TRUE(IsHeld(body_, grasp, cell.faces, half_angle_));
+        EXPECT_TRUE(IsHeld(body_, grasp, cell.faces, friction_angle_));
         ++count.grasps;
       }
     }
@@ -210,7 +210,7 @@ class GraspOracle {
     for (const HalfIndex half : halves) {
       EXPECT_LT(graph_.finder().VolumeOf(half, candidate.tangent).At(focus), 0);
     }
-    EXPECT_TRUE(IsHeld(body_, grasp, candidate.faces, half_angle_));
+    EXPECT_TRUE(IsHeld(body_, grasp, candidate.faces, friction_angle_));
     ++count.grasps;
     if (std::ranges::any_of(halves, [](HalfIndex half) { return !IsInner(half); })) ++count.outer;
     count.pieces.insert(halves);
@@ -234,7 +234,7 @@ class GraspOracle {
   }
 
   const object::Polyhedron& body_;
-  double half_angle_;
+  double friction_angle_;
   PolyhedronGraph graph_;
   GraspDraw draw_;
   std::map<Halves, int> cell_of_;  // cells by the halves of their pieces

@@ -11,7 +11,7 @@ namespace regrasp::sim {
 /// Paths of fingers along the surface that begin and end together, as waypoints of a sliding step.
 /// Between two waypoints every finger moves on one face, or turns its normal at a point of a
 /// border.
-class FingerWays {
+class FingerPaths {
  public:
   /// @param held  finger and its contact; the point of the contact is ignored.
   /// @param legs  consecutive legs of the path, at least one. The time of each leg is proportional
@@ -30,7 +30,7 @@ class FingerWays {
     std::vector<double> ends;  ///< end times of the legs, in [0, 1]
   };
 
-  std::vector<Way> ways_;
+  std::vector<Way> paths_;
 };
 
 }  // namespace regrasp::sim

@@ -17,7 +17,7 @@ namespace regrasp::grasp {
 
 /// Certified bounds on the required friction angle of a grasp, radians.
 /// At `upper` the grasp is force closure; at and below `lower` it is not.
-struct RequiredHalfAngle {
+struct RequiredFrictionAngle {
   double lower = 0;
   double upper = 0;
 };
@@ -28,16 +28,16 @@ struct RequiredHalfAngle {
 /// @param tolerance  largest distance between the bounds, radians, > 0.
 /// @returns bounds; nullopt if no angle below π/2 is enough (to within 1e-6 rad).
 /// @throws std::invalid_argument  as TestForceClosure, or if the tolerance is not > 0.
-[[nodiscard]] std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(
+[[nodiscard]] std::optional<RequiredFrictionAngle> ComputeRequiredFrictionAngle(
     std::span<const Contact> contacts, const object::WrenchFrame& frame, double tolerance = 1e-9);
 
 /// Compute the required friction angle within known bounds, radians.
 /// @param known  bounds: the grasp is force closure at known.upper, and angles below known.lower
 ///     are irrelevant.
-/// @throws std::invalid_argument  as ComputeRequiredHalfAngle.
-[[nodiscard]] RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
-                                                        const object::WrenchFrame& frame,
-                                                        const RequiredHalfAngle& known,
-                                                        double tolerance);
+/// @throws std::invalid_argument  as ComputeRequiredFrictionAngle.
+[[nodiscard]] RequiredFrictionAngle NarrowRequiredFrictionAngle(std::span<const Contact> contacts,
+                                                                const object::WrenchFrame& frame,
+                                                                const RequiredFrictionAngle& known,
+                                                                double tolerance);
 
 }  // namespace regrasp::grasp

@@ -35,6 +35,6 @@ struct RepeatedFacet {
 /// still not be a closed manifold. Polygons keep their numbers; dropped ones have no corners.
 /// @param diameter  diameter D of the object.
 /// @returns whether the soup was changed.
-bool MendSoup(WeldedSoup& soup, double diameter);
+bool RepairSoup(WeldedSoup& soup, double diameter);
 
 }  // namespace regrasp::object

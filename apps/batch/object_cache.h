@@ -16,7 +16,7 @@ using SharedObject = std::shared_ptr<const object::ObjectFile>;
 /// Cache of the most recently used objects, keyed by their file and by how it is read.
 /// Failures to read a file are cached as well, so that a thousand plans for the same object try
 /// only once.
-class ObjectShelf {
+class ObjectCache {
  public:
   static constexpr std::size_t kMost = 32;
 

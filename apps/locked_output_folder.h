@@ -22,7 +22,7 @@ inline constexpr char kRunFileName[] = ".regrasp-run";
 /// killed, the file remains without the lock. The next process reads from it which files the killed
 /// process wrote. Forked children share the lock, so the folder is free when the last of them has
 /// ended.
-class HeldFolder {
+class LockedOutputFolder {
  public:
   /// Waiting time for a locked folder.
   /// The children of a killed run take an instant to end.
@@ -32,10 +32,11 @@ class HeldFolder {
   /// @throws EnvironmentError  if another process has locked the folder (the message names it), or
   ///     the folder cannot be made or written.
   /// @throws InputError        if a file of the same name exists that regrasp did not write.
-  explicit HeldFolder(std::filesystem::path path, std::chrono::milliseconds patience = kPatience);
-  ~HeldFolder();
-  HeldFolder(const HeldFolder&) = delete;
-  HeldFolder& operator=(const HeldFolder&) = delete;
+  explicit LockedOutputFolder(std::filesystem::path path,
+                              std::chrono::milliseconds patience = kPatience);
+  ~LockedOutputFolder();
+  LockedOutputFolder(const LockedOutputFolder&) = delete;
+  LockedOutputFolder& operator=(const LockedOutputFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

@@ -1,4 +1,4 @@
-#include "planner/repair/invented_marks.h"
+#include "planner/repair/filled_marks.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -17,11 +17,11 @@ using object::PolygonSoup;
 namespace {
 
 bool IsMarked(const PolygonSoup& soup, std::size_t facet) {
-  return !soup.invented.empty() && soup.invented[facet];
+  return !soup.filled.empty() && soup.filled[facet];
 }
 
 bool HasMarks(const PolygonSoup& soup) {
-  return std::ranges::find(soup.invented, true) != soup.invented.end();
+  return std::ranges::find(soup.filled, true) != soup.filled.end();
 }
 
 /// Return the marked polygons, or the unmarked ones, as triangles.
@@ -59,44 +59,44 @@ double AreaOf(const PolygonSoup& triangles) {
 
 /// Mark triangles that are nearer to the original's filled surface than to its other surface.
 void InheritMarks(const PolygonSoup& original, PolygonSoup& solid) {
-  const PolygonSoup invented = TrianglesOf(original, true), known = TrianglesOf(original, false);
-  if (invented.facets.empty()) return;
+  const PolygonSoup filled = TrianglesOf(original, true), known = TrianglesOf(original, false);
+  if (filled.facets.empty()) return;
   if (known.facets.empty()) {
-    solid.invented.assign(solid.facets.size(), true);
+    solid.filled.assign(solid.facets.size(), true);
     return;
   }
-  const SurfaceDistance to_invented(invented), to_known(known);
+  const SurfaceDistance to_filled(filled), to_known(known);
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
     const std::array<Vector3d, 4> points = CornersOf(solid, f);
     if (std::ranges::any_of(points, [&](const Vector3d& p) {
-          return to_invented.DistanceTo(p) < to_known.DistanceTo(p);
+          return to_filled.DistanceTo(p) < to_known.DistanceTo(p);
         })) {
-      solid.invented[f] = true;
+      solid.filled[f] = true;
     }
   }
 }
 
 }  // namespace
 
-void MarkInvented(const PolygonSoup& original, const Comparison& comparison, PolygonSoup& solid) {
-  solid.invented = comparison.invented;
-  solid.invented.resize(solid.facets.size(), false);
+void MarkFilled(const PolygonSoup& original, const Comparison& comparison, PolygonSoup& solid) {
+  solid.filled = comparison.filled;
+  solid.filled.resize(solid.facets.size(), false);
   if (HasMarks(original)) InheritMarks(original, solid);
 }
 
-double InventedShare(const PolygonSoup& solid) {
-  const double invented = AreaOf(TrianglesOf(solid, true));
-  return invented / (invented + AreaOf(TrianglesOf(solid, false)));
+double FilledShare(const PolygonSoup& solid) {
+  const double filled = AreaOf(TrianglesOf(solid, true));
+  return filled / (filled + AreaOf(TrianglesOf(solid, false)));
 }
 
-void InventedLast(PolygonSoup& solid) {
-  if (!HasMarks(solid)) solid.invented.clear();
+void FilledLast(PolygonSoup& solid) {
+  if (!HasMarks(solid)) solid.filled.clear();
   PolygonSoup sorted{solid.vertices, {}};
-  for (const bool invented : {false, true}) {
+  for (const bool filled : {false, true}) {
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-      if (IsMarked(solid, f) != invented) continue;
+      if (IsMarked(solid, f) != filled) continue;
       sorted.facets.push_back(solid.facets[f]);
-      if (!solid.invented.empty()) sorted.invented.push_back(invented);
+      if (!solid.filled.empty()) sorted.filled.push_back(filled);
     }
   }
   solid = std::move(sorted);

@@ -1,4 +1,4 @@
-#include "sim/measure/shake.h"
+#include "sim/measure/disturbance.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {
-namespace shake_test {
+namespace disturbance_test {
 
 StepReplay HoldUnder(Protocol protocol, const object::Object& object, const plan::Plan& plan,
                      ReplayOptions options = {}) {
@@ -20,12 +20,14 @@ StepReplay HoldUnder(Protocol protocol, const object::Object& object, const plan
 
 TEST(PushTest, ThereAreTwelveDirectionsInSpaceAndSixInThePlane) {
   std::set<std::string> space, plane;
-  for (const Push& push : PushDirections(3)) space.insert(PushName(push));
-  for (const Push& push : PushDirections(2)) plane.insert(PushName(push));
+  for (const Disturbance& disturbance : DisturbanceDirections(3))
+    space.insert(DisturbanceName(disturbance));
+  for (const Disturbance& disturbance : DisturbanceDirections(2))
+    plane.insert(DisturbanceName(disturbance));
   EXPECT_EQ(space.size(), 12u);
   EXPECT_EQ(plane, (std::set<std::string>{"force +x", "force -x", "force +y", "force -y",
                                           "torque +z", "torque -z"}));
-  const grasp::Wrench turn = PushWrench({true, 1, -1}, 3);
+  const grasp::Wrench turn = DisturbanceWrench({true, 1, -1}, 3);
   EXPECT_TRUE(turn.force.isZero(0));
   EXPECT_EQ(turn.torque_over_radius, Eigen::Vector3d(0, -3, 0));
 }
@@ -71,7 +73,7 @@ TEST(ProtocolTest, AFixedSqueezeFailsUnderAPushThatAdaptedForcesResist) {
   const CubeCase cube;
   const plan::Plan plan = MakePlan(cube.Start(), 25);
   ReplayOptions options;
-  options.shake = 0.1;
+  options.disturbance_ratio = 0.1;
   const StepReplay hold = HoldUnder(Protocol::kBoth, cube.object, plan, options);
   EXPECT_EQ(hold.adapted->reason, plan::Reason::kNone) << hold.adapted->detail;
   EXPECT_NE(hold.fixed->reason, plan::Reason::kNone);
@@ -82,16 +84,16 @@ TEST(ProtocolTest, AFixedSqueezeFailsUnderAPushThatAdaptedForcesResist) {
 TEST(ProtocolTest, TheMarginsAreSmallerUnderTheShakeThanAtRestAndZeroWhereAFingerSlips) {
   const CubeCase cube;
   const StepReplay good = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 25));
-  ASSERT_EQ(good.rest_margins.size(), 4u);
-  for (const auto& [finger, rest] : good.rest_margins) {
+  ASSERT_EQ(good.static_margins.size(), 4u);
+  for (const auto& [finger, rest] : good.static_margins) {
     EXPECT_GT(rest, kConeReached);
     EXPECT_LT(rest, Radians(25));
-    EXPECT_LE(good.adapted->shake_margins.at(finger), rest + 1e-6);
-    EXPECT_LE(good.fixed->shake_margins.at(finger), rest + 1e-6);
+    EXPECT_LE(good.adapted->disturbance_margins.at(finger), rest + 1e-6);
+    EXPECT_LE(good.fixed->disturbance_margins.at(finger), rest + 1e-6);
   }
-  EXPECT_GT(*SmallestMargin(good.adapted->shake_margins), kConeReached);
+  EXPECT_GT(*SmallestMargin(good.adapted->disturbance_margins), kConeReached);
   const StepReplay bad = HoldUnder(Protocol::kBoth, cube.object, MakePlan(cube.Start(), 4.5));
-  EXPECT_LT(*SmallestMargin(bad.fixed->shake_margins), kConeReached);
+  EXPECT_LT(*SmallestMargin(bad.fixed->disturbance_margins), kConeReached);
 }
 
 TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
@@ -99,7 +101,7 @@ TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   plan::Plan plan = MakePlan(cube.Start(), 25);
   plan.steps = {plan::Switch{{cube.At(4, 0, 0.001, 0.03)}, {FingerIndex(2)}}};
   ReplayOptions options;
-  options.shake = 0.1;
+  options.disturbance_ratio = 0.1;
   options.protocol = Protocol::kBoth;
   const ReplayResult both = ReplayPlan(cube.object, plan, options);
   options.protocol = Protocol::kAdapted;
@@ -111,5 +113,5 @@ TEST(ProtocolTest, WhatComesAfterAFailedFixedShakeIsAsWithoutIt) {
   EXPECT_EQ(both.steps[1].moved_m, adapted.steps[1].moved_m);
 }
 
-}  // namespace shake_test
+}  // namespace disturbance_test
 }  // namespace regrasp::sim

@@ -8,12 +8,13 @@
 
 namespace regrasp::sim {
 
-/// Return the grasp force of each static grasp of a plan, newtons (RestSqueeze with MostSqueeze).
+/// Return the grasp force of each static grasp of a plan, newtons (StaticGraspForce with
+/// LargestGraspForce).
 /// @param world    world of hand and object; its state changes to the static grasps.
 /// @param entries  number of entries of the plan that count, initial grasp included.
 [[nodiscard]] std::vector<double> TorqueSqueezes(HandWorld& world, const object::Polyhedron& solid,
                                                  const plan::Plan& plan, int entries,
-                                                 double half_angle, double weight);
+                                                 double friction_angle, double weight);
 
 /// Return the grasp force of a static grasp, newtons.
 /// It is the largest, up to `most`, that satisfies two conditions:
@@ -25,13 +26,14 @@ namespace regrasp::sim {
 /// If only a grasp force below that of a force margin of kLeastMargin is stable, the result is the
 /// force with this margin instead. The replay then decides.
 /// @param grasp  contacts in the object's units, `scale` metres each.
-[[nodiscard]] double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
-                                 const plan::HandState& state, const plan::FingerGrasp& grasp,
-                                 double half_angle, double weight, double most);
+[[nodiscard]] double StaticGraspForce(HandWorld& world, const object::Polyhedron& solid,
+                                      double scale, const plan::HandState& state,
+                                      const plan::FingerGrasp& grasp, double friction_angle,
+                                      double weight, double most);
 
 /// Return the largest grasp force of any static grasp, newtons.
 /// It is kMostWeights times the weight and at least kEnough.
-[[nodiscard]] double MostSqueeze(double weight);
+[[nodiscard]] double LargestGraspForce(double weight);
 
 inline constexpr double kTorqueShare = 0.4;
 inline constexpr double kStableShare = 0.5;

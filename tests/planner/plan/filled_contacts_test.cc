@@ -3,19 +3,19 @@
 
 #include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::plan {
-namespace invented_contacts_test {
+namespace filled_contacts_test {
 
 using ::testing::HasSubstr;
 
 /// Return a cube whose side at x = 0.5 is a filled surface.
-object::Polyhedron CubeWithInventedSide() {
+object::Polyhedron CubeWithFilledSide() {
   object::PolygonSoup cube = soups::UnitCubeSoup();
-  cube.invented.assign(cube.facets.size(), false);
-  cube.invented[3] = true;
+  cube.filled.assign(cube.facets.size(), false);
+  cube.filled[3] = true;
   return object::Polyhedron::FromSoup(cube, "cube");
 }
 
@@ -28,17 +28,17 @@ const FingerContact kRight = Contact(1, {0.5, 0, 0}, {-1, 0, 0});
 const FingerContact kTop = Contact(2, {0, 0, 0.5}, {0, 0, -1});
 
 std::string WarningOf(const Plan& plan) {
-  const object::Polyhedron cube = CubeWithInventedSide();
-  return InventedContactsWarning(cube, LocatePlan(cube, plan));
+  const object::Polyhedron cube = CubeWithFilledSide();
+  return FilledContactsWarning(cube, ProjectPlan(cube, plan));
 }
 
-TEST(InventedContacts, FingersOnTheOriginalSurfaceAreNoneToWarnOf) {
+TEST(FilledContacts, FingersOnTheOriginalSurfaceAreNoneToWarnOf) {
   Plan plan;
   plan.initial = {kLeft, kTop};
   EXPECT_EQ(WarningOf(plan), "");
 }
 
-TEST(InventedContacts, TheFirstIsNamedAndAllAreCounted) {
+TEST(FilledContacts, TheFirstIsNamedAndAllAreCounted) {
   Plan plan;
   plan.initial = {kLeft, kRight};
   EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact is on surface that the repair filled in "
@@ -49,5 +49,5 @@ TEST(InventedContacts, TheFirstIsNamedAndAllAreCounted) {
                                          "(finger 1 in step 1)"));
 }
 
-}  // namespace invented_contacts_test
+}  // namespace filled_contacts_test
 }  // namespace regrasp::plan

@@ -12,7 +12,7 @@
 namespace regrasp::repair {
 
 /// Result of the repair pipeline.
-struct Climbed {
+struct PipelineResult {
   Attempt attempt;
   std::optional<object::PolygonSoup> solid;  ///< nullopt if no stage gives one
   Comparison comparison;                     ///< comparison of the solid with the original
@@ -21,7 +21,9 @@ struct Climbed {
 /// Run the repair stages until one gives a valid solid.
 /// A solid is valid if the reader accepts it and it satisfies the limits in `options` (repair.h).
 /// @throws TimeUp  if the deadline passes.
-[[nodiscard]] Climbed Climb(const object::PolygonSoup& soup, const std::string& name,
-                            const object::RepairOptions& options, const object::Reading& reading);
+[[nodiscard]] PipelineResult RunRepairPipeline(const object::PolygonSoup& soup,
+                                               const std::string& name,
+                                               const object::RepairOptions& options,
+                                               const object::Reading& reading);
 
 }  // namespace regrasp::repair

@@ -1,4 +1,4 @@
-#include "sim/actuation/torque_squeeze.h"
+#include "sim/actuation/torque_grasp_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
 class HeldGrasp {
  public:
   HeldGrasp(HandWorld& world, const object::Polyhedron& solid, double scale,
-            const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
+            const plan::HandState& state, const plan::FingerGrasp& grasp, double friction_angle,
             double weight)
       : world_(world),
         solid_(solid),
@@ -44,18 +44,19 @@ class HeldGrasp {
         grasp_(grasp),
         contacts_(plan::ContactsOf(grasp)),
         scale_(scale),
-        half_angle_(half_angle) {
+        friction_angle_(friction_angle) {
     load_.force = -weight * (pose_.linear().transpose() * world.hand().up);
     world.Place(state);
   }
 
-  [[nodiscard]] grasp::GraspForces ForcesAt(double squeeze) const {
-    return grasp::ComputeGraspForces(contacts_, solid_.wrench_frame(), half_angle_, load_, squeeze);
+  [[nodiscard]] grasp::GraspForces ForcesAt(double grasp_force) const {
+    return grasp::ComputeGraspForces(contacts_, solid_.wrench_frame(), friction_angle_, load_,
+                                     grasp_force);
   }
 
   /// Return the largest ratio of an actuator's torque to its limit.
-  [[nodiscard]] double LoadAt(double squeeze) const {
-    const grasp::GraspForces forces = ForcesAt(squeeze);
+  [[nodiscard]] double LoadAt(double grasp_force) const {
+    const grasp::GraspForces forces = ForcesAt(grasp_force);
     double most = 0;
     for (std::size_t i = 0; i < grasp_.size(); ++i) {
       const FingerIndex f = grasp_[i].finger;
@@ -69,8 +70,8 @@ class HeldGrasp {
   }
 
   /// @param share  factor on the forces.
-  [[nodiscard]] double StiffnessAt(double squeeze, double share = 1) const {
-    const grasp::GraspForces forces = ForcesAt(squeeze);
+  [[nodiscard]] double StiffnessAt(double grasp_force, double share = 1) const {
+    const grasp::GraspForces forces = ForcesAt(grasp_force);
     std::vector<StiffFinger> fingers;
     for (std::size_t i = 0; i < grasp_.size(); ++i) {
       const FingerIndex f = grasp_[i].finger;
@@ -79,8 +80,8 @@ class HeldGrasp {
       for (int drive = 0; drive < chain.drives; ++drive) {
         stiffness[drive] = world_.servo(f, drive).stiffness;
       }
-      fingers.push_back({&chain, world_.posture(f), stiffness, pose_ * (scale_ * contacts_[i].p),
-                         pose_.linear() * contacts_[i].n,
+      fingers.push_back({&chain, world_.configuration(f), stiffness,
+                         pose_ * (scale_ * contacts_[i].p), pose_.linear() * contacts_[i].n,
                          share * (pose_.linear() * forces.forces[i])});
     }
     const double radius = scale_ * solid_.diameter() / 2;
@@ -94,7 +95,7 @@ class HeldGrasp {
   const plan::FingerGrasp& grasp_;
   grasp::Grasp contacts_;
   double scale_;
-  double half_angle_;
+  double friction_angle_;
   grasp::Wrench load_;
 };
 
@@ -114,31 +115,32 @@ double LargestForce(double most, const Holds& holds) {
 
 }  // namespace
 
-double MostSqueeze(double weight) { return std::max(kMostWeights * weight, kEnough); }
+double LargestGraspForce(double weight) { return std::max(kMostWeights * weight, kEnough); }
 
-double RestSqueeze(HandWorld& world, const object::Polyhedron& solid, double scale,
-                   const plan::HandState& state, const plan::FingerGrasp& grasp, double half_angle,
-                   double weight, double most) {
-  const HeldGrasp held(world, solid, scale, state, grasp, half_angle, weight);
-  const double allowed =
-      LargestForce(most, [&](double squeeze) { return held.LoadAt(squeeze) <= kTorqueShare; });
+double StaticGraspForce(HandWorld& world, const object::Polyhedron& solid, double scale,
+                        const plan::HandState& state, const plan::FingerGrasp& grasp,
+                        double friction_angle, double weight, double most) {
+  const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight);
+  const double allowed = LargestForce(
+      most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; });
   const double unloaded = held.StiffnessAt(most, 0);
-  const double stable = LargestForce(allowed, [&](double squeeze) {
-    return held.StiffnessAt(squeeze) >= kStableShare * unloaded;
+  const double stable = LargestForce(allowed, [&](double grasp_force) {
+    return held.StiffnessAt(grasp_force) >= kStableShare * unloaded;
   });
   if (stable >= allowed) return allowed;
-  const double required = LargestForce(
-      allowed, [&](double squeeze) { return held.ForcesAt(squeeze).margin < kLeastMargin; });
+  const double required = LargestForce(allowed, [&](double grasp_force) {
+    return held.ForcesAt(grasp_force).margin < kLeastMargin;
+  });
   return std::max(stable, required);
 }
 
 std::vector<double> TorqueSqueezes(HandWorld& world, const object::Polyhedron& solid,
-                                   const plan::Plan& plan, int entries, double half_angle,
+                                   const plan::Plan& plan, int entries, double friction_angle,
                                    double weight) {
   std::vector<double> squeezes;
   for (const PlannedRest& rest : RestsOf(plan, entries)) {
-    squeezes.push_back(RestSqueeze(world, solid, plan.scale, rest.state, rest.grasp, half_angle,
-                                   weight, MostSqueeze(weight)));
+    squeezes.push_back(StaticGraspForce(world, solid, plan.scale, rest.state, rest.grasp,
+                                        friction_angle, weight, LargestGraspForce(weight)));
   }
   return squeezes;
 }

@@ -10,13 +10,13 @@ namespace regrasp::repair {
 /// marks of an earlier repair.
 /// @param original  surface of the file, with its marks.
 /// @param comparison  comparison of the two surfaces; a default Comparison marks nothing.
-void MarkInvented(const object::PolygonSoup& original, const Comparison& comparison,
-                  object::PolygonSoup& solid);
+void MarkFilled(const object::PolygonSoup& original, const Comparison& comparison,
+                object::PolygonSoup& solid);
 
 /// Return the share of the area that is marked as filled.
-[[nodiscard]] double InventedShare(const object::PolygonSoup& solid);
+[[nodiscard]] double FilledShare(const object::PolygonSoup& solid);
 
 /// Move marked triangles behind all others, as required by the file format of a solid.
-void InventedLast(object::PolygonSoup& solid);
+void FilledLast(object::PolygonSoup& solid);
 
 }  // namespace regrasp::repair

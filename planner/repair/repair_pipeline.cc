@@ -1,4 +1,4 @@
-#include "planner/repair/ladder.h"
+#include "planner/repair/repair_pipeline.h"
 
 #include <chrono>
 #include <functional>
@@ -9,7 +9,7 @@
 #include "planner/base/number.h"
 #include "planner/object/body_measures.h"
 #include "planner/repair/canonical_order.h"
-#include "planner/repair/invented_marks.h"
+#include "planner/repair/filled_marks.h"
 #include "planner/repair/judgement.h"
 #include "planner/repair/reconstruct.h"
 #include "planner/repair/run_stage.h"
@@ -39,18 +39,18 @@ bool Applies(std::string_view stage, const PolygonSoup& soup) {
   return true;
 }
 
-class Ladder {
+class RepairPipeline {
  public:
-  Ladder(const PolygonSoup& soup, const std::string& name, const object::RepairOptions& options,
-         const object::Reading& reading)
+  RepairPipeline(const PolygonSoup& soup, const std::string& name,
+                 const object::RepairOptions& options, const object::Reading& reading)
       : soup_(soup), name_(name), options_(options), reading_(reading) {
-    climbed_.attempt.facets_before = soup.facets.size();
-    climbed_.attempt.diameter = object::ComputeDiameter(soup.vertices);
+    result_.attempt.facets_before = soup.facets.size();
+    result_.attempt.diameter = object::ComputeDiameter(soup.vertices);
   }
 
-  Climbed Climb() {
-    if (!(JoinsPoints() && MakesSolid() && MakesCoarser())) climbed_.solid.reset();
-    return std::move(climbed_);
+  PipelineResult Run() {
+    if (!(JoinsPoints() && MakesSolid() && MakesCoarser())) result_.solid.reset();
+    return std::move(result_);
   }
 
  private:
@@ -75,29 +75,29 @@ class Ladder {
   bool MakesSolid() {
     if (!options_.thickness && TakesAsItIs()) return true;
     if (!Cleans()) return false;
-    return options_.thickness ? MakesSheet() : ClimbsStages();
+    return options_.thickness ? MakesSheet() : RunsStages();
   }
 
   bool Cleans() {
     auto clean = Run("clean", [&] { return CleanSurface(soup_); });
     if (!clean) return false;
     const bool open = HasOpenEdges(*clean);
-    original_ = {*std::move(clean), climbed_.attempt.diameter, open};
+    original_ = {*std::move(clean), result_.attempt.diameter, open};
     return true;
   }
 
   /// Return whether the reader accepts the surface of the file, so that no repair is required.
   bool TakesAsItIs() {
-    climbed_.attempt.stages.emplace_back();
+    result_.attempt.stages.emplace_back();
     last().stage = "read";
     last().facets = soup_.facets.size();
     if (!Passes(JudgeSurface(soup_, reading_))) return false;
-    climbed_.solid = soup_;              // keeps the marks of an earlier repair
-    climbed_.comparison.seen_share = 1;  // all differences are zero
+    result_.solid = soup_;              // keeps the marks of an earlier repair
+    result_.comparison.seen_share = 1;  // all differences are zero
     return true;
   }
 
-  bool ClimbsStages() {
+  bool RunsStages() {
     if (IsCloseEnough(original_.soup)) return true;
     PolygonSoup best = original_.soup;
     using Stage = StageResult (*)(const PolygonSoup&);
@@ -148,7 +148,7 @@ class Ladder {
     const double deviation = comparison->seen_most / original_.diameter;
     const bool is_close = deviation <= kCloseEnough;
     if (!closest_ || deviation < closest_->comparison.seen_most / original_.diameter) {
-      closest_ = {climbed_.attempt.stages, std::move(soup), *std::move(comparison)};
+      closest_ = {result_.attempt.stages, std::move(soup), *std::move(comparison)};
     }
     if (is_close) return HasClosest();
     last().facts["deviation_over_diameter"] = deviation;
@@ -160,7 +160,7 @@ class Ladder {
   /// farther off.
   bool HasClosest() {
     if (!closest_) return false;
-    std::vector<StageReport>& stages = climbed_.attempt.stages;
+    std::vector<StageReport>& stages = result_.attempt.stages;
     Json others = Json::array();
     for (std::size_t i = 0; i < stages.size(); ++i) {
       if (stages[i].outcome != kIsSolid || i + 1 == closest_->stages.size()) continue;
@@ -172,8 +172,8 @@ class Ladder {
       if (stages[i].outcome == kIsSolid) stages[i].outcome = "a solid, but a later one is closer";
     }
     if (!others.empty()) last().facts["farther_off"] = others;
-    climbed_.solid = std::move(closest_->solid);
-    climbed_.comparison = std::move(closest_->comparison);
+    result_.solid = std::move(closest_->solid);
+    result_.comparison = std::move(closest_->comparison);
     return true;
   }
 
@@ -184,17 +184,17 @@ class Ladder {
   }
 
   bool MakesCoarser() {
-    if (!options_.facets || std::ssize(climbed_.solid->facets) <= *options_.facets) return true;
+    if (!options_.facets || std::ssize(result_.solid->facets) <= *options_.facets) return true;
     if (original_.soup.facets.empty()) {  // the file is a solid: triangulate it for the comparison
       if (!Cleans()) return false;
-      climbed_.attempt.stages.pop_back();
+      result_.attempt.stages.pop_back();
       const auto is_triangle = [](const auto& facet) { return facet.size() == 3; };
-      if (!std::ranges::all_of(climbed_.solid->facets, is_triangle)) {
-        climbed_.solid = original_.soup;
+      if (!std::ranges::all_of(result_.solid->facets, is_triangle)) {
+        result_.solid = original_.soup;
       }
     }
-    PolygonSoup fine = *climbed_.solid;
-    MarkInvented(soup_, climbed_.comparison, fine);
+    PolygonSoup fine = *result_.solid;
+    MarkFilled(soup_, result_.comparison, fine);
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
     if (!coarse) return false;
     if (Accepts(*coarse, &fine)) return true;
@@ -215,7 +215,7 @@ class Ladder {
                                  const std::function<StageResult()>& task) {
     reading_.Begin("repairing " + name_ + ": " + stage);
     StageRun run = RunStage(task, reading_.deadline, TimeOf(stage));
-    StageReport& report = climbed_.attempt.stages.emplace_back();
+    StageReport& report = result_.attempt.stages.emplace_back();
     report.stage = stage;
     report.outcome = run.failure;
     if (!run.result) return std::nullopt;
@@ -245,9 +245,9 @@ class Ladder {
         Compare(its_original ? *its_original : original_.soup, soup, original_.diameter);
     if (fine != nullptr) {
       PolygonSoup marked = soup;
-      MarkInvented(*fine, {}, marked);
-      comparison.invented = marked.invented;
-      comparison.invented_share = InventedShare(marked);
+      MarkFilled(*fine, {}, marked);
+      comparison.filled = marked.filled;
+      comparison.filled_share = FilledShare(marked);
     }
     if (!Passes(JudgeShape(comparison, original_, options_))) return std::nullopt;
     return comparison;
@@ -258,8 +258,8 @@ class Ladder {
   bool Accepts(PolygonSoup soup, const PolygonSoup* fine = nullptr) {
     std::optional<Comparison> comparison = Judge(soup, fine);
     if (!comparison) return false;
-    climbed_.solid = std::move(soup);
-    climbed_.comparison = *std::move(comparison);
+    result_.solid = std::move(soup);
+    result_.comparison = *std::move(comparison);
     return true;
   }
 
@@ -283,14 +283,14 @@ class Ladder {
     return judgement.passes();
   }
 
-  StageReport& last() { return climbed_.attempt.stages.back(); }
+  StageReport& last() { return result_.attempt.stages.back(); }
 
   PolygonSoup soup_;
   const std::string& name_;
   const object::RepairOptions& options_;
   const object::Reading& reading_;
   Original original_;
-  Climbed climbed_;
+  PipelineResult result_;
   /// Closest solid so far.
   struct Closest {
     std::vector<StageReport> stages;  ///< stages up to and including the one that made the solid
@@ -302,9 +302,10 @@ class Ladder {
 
 }  // namespace
 
-Climbed Climb(const PolygonSoup& soup, const std::string& name,
-              const object::RepairOptions& options, const object::Reading& reading) {
-  return Ladder(soup, name, options, reading).Climb();
+PipelineResult RunRepairPipeline(const PolygonSoup& soup, const std::string& name,
+                                 const object::RepairOptions& options,
+                                 const object::Reading& reading) {
+  return RepairPipeline(soup, name, options, reading).Run();
 }
 
 }  // namespace regrasp::repair

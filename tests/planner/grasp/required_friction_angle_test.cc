@@ -1,4 +1,4 @@
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 #include <gtest/gtest.h>
 
@@ -11,16 +11,16 @@
 #include "tests/fixtures/random_grasps.h"
 
 namespace regrasp::grasp {
-namespace required_half_angle_test {
+namespace required_friction_angle_test {
 
 /// Tolerance, well above the differences of bounds next to an angle that is too close to call.
 constexpr double kClose = 1e-6;
 
-TEST(RequiredHalfAngleTest, TwoOppositeFingersNeedTheAngleOfTheirOffset) {
+TEST(RequiredFrictionAngleTest, TwoOppositeFingersNeedTheAngleOfTheirOffset) {
   for (const double offset : {0.0, 0.1, 0.5, 1.0, 3.0}) {
     const double width = 2;
     const Grasp grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, offset, 0}, {-1, 0, 0}}};
-    const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(2));
+    const auto required = ComputeRequiredFrictionAngle(grasp, UnitFrame(2));
     ASSERT_TRUE(required);
     EXPECT_LE(required->lower, std::atan(offset / width) + 1e-12);
     EXPECT_GE(required->upper, std::atan(offset / width) - 1e-12);
@@ -28,18 +28,18 @@ TEST(RequiredHalfAngleTest, TwoOppositeFingersNeedTheAngleOfTheirOffset) {
   }
 }
 
-TEST(RequiredHalfAngleTest, ARegularTetrahedronNeedsNone) {
+TEST(RequiredFrictionAngleTest, ARegularTetrahedronNeedsNone) {
   Grasp grasp;
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, -1, -1),
                                         Eigen::Vector3d(-1, 1, -1), Eigen::Vector3d(-1, -1, 1)}) {
     grasp.push_back({corner.normalized(), -corner.normalized()});
   }
-  const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+  const auto required = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
   ASSERT_TRUE(required);
   EXPECT_LT(required->upper, kClose);
 }
 
-TEST(RequiredHalfAngleTest, ThreeBentFingersNeedTheirBend) {
+TEST(RequiredFrictionAngleTest, ThreeBentFingersNeedTheirBend) {
   // Three fingers on a circle with normals tilted upwards: they balance only if the cones extend
   // downwards.
   for (const double bend : {3.0, 20.0, 50.0}) {
@@ -50,14 +50,14 @@ TEST(RequiredHalfAngleTest, ThreeBentFingersNeedTheirBend) {
       grasp.push_back(
           {p, (-std::cos(Radians(bend)) * p + std::sin(Radians(bend)) * Eigen::Vector3d::UnitZ())});
     }
-    const auto required = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    const auto required = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
     ASSERT_TRUE(required);
     EXPECT_NEAR(required->upper, Radians(bend), kClose);
     EXPECT_NEAR(required->lower, Radians(bend), kClose);
   }
 }
 
-TEST(RequiredHalfAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow) {
+TEST(RequiredFrictionAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow) {
   RandomGrasps random(11);
   int found = 0;
   double widest = 0;
@@ -66,7 +66,7 @@ TEST(RequiredHalfAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow
     const Grasp grasp = trial % 3 == 0 ? random.OnBox(2 + trial % 4, dimension)
                                        : random.OnBall(2 + trial % 4, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const auto required = ComputeRequiredHalfAngle(grasp, frame);
+    const auto required = ComputeRequiredFrictionAngle(grasp, frame);
     if (!required) {
       EXPECT_FALSE(IsForceClosure(grasp, frame, Radians(89.99)));
       continue;
@@ -87,7 +87,7 @@ TEST(RequiredHalfAngleTest, HoldsAtTheUpperBoundAndAboveAndNotAtTheLowerAndBelow
   EXPECT_LT(widest, kClose);
 }
 
-TEST(RequiredHalfAngleTest, BetweenKnownBoundsItIsTheSame) {
+TEST(RequiredFrictionAngleTest, BetweenKnownBoundsItIsTheSame) {
   RandomGrasps random(13);
   const double tolerance = 1e-7;
   int found = 0;
@@ -95,30 +95,31 @@ TEST(RequiredHalfAngleTest, BetweenKnownBoundsItIsTheSame) {
     const int dimension = 2 + trial % 2;
     const Grasp grasp = random.OnBall(3 + trial % 3, dimension);
     const object::WrenchFrame frame = UnitFrame(dimension);
-    const auto required = ComputeRequiredHalfAngle(grasp, frame);
+    const auto required = ComputeRequiredFrictionAngle(grasp, frame);
     if (!required || required->lower <= 0) continue;
     ++found;
-    const RequiredHalfAngle known{random.Uniform(0, required->lower),
-                                  random.Uniform(required->upper, Radians(89))};
-    const RequiredHalfAngle narrowed = NarrowRequiredHalfAngle(grasp, frame, known, tolerance);
+    const RequiredFrictionAngle known{random.Uniform(0, required->lower),
+                                      random.Uniform(required->upper, Radians(89))};
+    const RequiredFrictionAngle narrowed =
+        NarrowRequiredFrictionAngle(grasp, frame, known, tolerance);
     EXPECT_NEAR(narrowed.lower, required->lower, kClose);
     EXPECT_NEAR(narrowed.upper, required->upper, kClose);
     // If the grasp requires less than the known angle, that angle is not needed.
-    const RequiredHalfAngle above{required->upper + tolerance, Radians(89)};
-    EXPECT_LE(NarrowRequiredHalfAngle(grasp, frame, above, tolerance).upper,
+    const RequiredFrictionAngle above{required->upper + tolerance, Radians(89)};
+    EXPECT_LE(NarrowRequiredFrictionAngle(grasp, frame, above, tolerance).upper,
               above.lower + tolerance);
   }
   EXPECT_GT(found, 80);
 }
 
-TEST(RequiredHalfAngleTest, MoreContactsNeverNeedMore) {
+TEST(RequiredFrictionAngleTest, MoreContactsNeverNeedMore) {
   RandomGrasps random(12);
   int compared = 0;
   for (int trial = 0; trial < 100; ++trial) {
     Grasp grasp = random.OnBall(4, 3);
-    const auto before = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    const auto before = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
     grasp.push_back(random.OnBall(1, 3).front());
-    const auto after = ComputeRequiredHalfAngle(grasp, UnitFrame(3));
+    const auto after = ComputeRequiredFrictionAngle(grasp, UnitFrame(3));
     if (!before) continue;
     ASSERT_TRUE(after);
     EXPECT_LE(after->lower, before->upper);
@@ -127,22 +128,22 @@ TEST(RequiredHalfAngleTest, MoreContactsNeverNeedMore) {
   EXPECT_GT(compared, 50);
 }
 
-TEST(RequiredHalfAngleTest, NoneWhereNoFrictionIsEnough) {
-  EXPECT_FALSE(ComputeRequiredHalfAngle(Grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}},
-                                        UnitFrame(3)));
-  EXPECT_FALSE(ComputeRequiredHalfAngle(Grasp{{{1, 0, 0}, {-1, 0, 0}}}, UnitFrame(2)));
-  EXPECT_FALSE(ComputeRequiredHalfAngle(
+TEST(RequiredFrictionAngleTest, NoneWhereNoFrictionIsEnough) {
+  EXPECT_FALSE(ComputeRequiredFrictionAngle(Grasp{{{-1, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}},
+                                            UnitFrame(3)));
+  EXPECT_FALSE(ComputeRequiredFrictionAngle(Grasp{{{1, 0, 0}, {-1, 0, 0}}}, UnitFrame(2)));
+  EXPECT_FALSE(ComputeRequiredFrictionAngle(
       Grasp{{{1, 0, 0}, {-1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}},
       UnitFrame(3)));
 }
 
-TEST(RequiredHalfAngleTest, BadArgumentsThrow) {
-  EXPECT_THROW((void)ComputeRequiredHalfAngle({}, UnitFrame(3)), std::invalid_argument);
+TEST(RequiredFrictionAngleTest, BadArgumentsThrow) {
+  EXPECT_THROW((void)ComputeRequiredFrictionAngle({}, UnitFrame(3)), std::invalid_argument);
   const Grasp grasp{{{1, 0, 0}, {-1, 0, 0}}};
-  EXPECT_THROW((void)ComputeRequiredHalfAngle(grasp, UnitFrame(3), 0), std::invalid_argument);
-  EXPECT_THROW((void)NarrowRequiredHalfAngle(grasp, UnitFrame(3), {0, 1}, 0),
+  EXPECT_THROW((void)ComputeRequiredFrictionAngle(grasp, UnitFrame(3), 0), std::invalid_argument);
+  EXPECT_THROW((void)NarrowRequiredFrictionAngle(grasp, UnitFrame(3), {0, 1}, 0),
                std::invalid_argument);
 }
 
-}  // namespace required_half_angle_test
+}  // namespace required_friction_angle_test
 }  // namespace regrasp::grasp

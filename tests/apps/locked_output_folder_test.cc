@@ -1,4 +1,4 @@
-#include "apps/held_folder.h"
+#include "apps/locked_output_folder.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace held_folder_test {
+namespace locked_output_folder_test {
 
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
@@ -44,12 +44,12 @@ int InChild(const std::function<int()>& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-class HeldFolderTest : public FolderTest {
+class LockedOutputFolderTest : public FolderTest {
  protected:
   template <class Error>
   std::string Refusal() const {
     try {
-      HeldFolder(folder_, kAtOnce);
+      LockedOutputFolder(folder_, kAtOnce);
     } catch (const Error& error) {
       return error.what();
     }
@@ -57,41 +57,42 @@ class HeldFolderTest : public FolderTest {
   }
 };
 
-TEST_F(HeldFolderTest, OneWhoComesLaterIsToldWhoHoldsIt) {
+TEST_F(LockedOutputFolderTest, OneWhoComesLaterIsToldWhoHoldsIt) {
   const std::string process = std::to_string(getpid());
   {
-    const HeldFolder held(folder_);
+    const LockedOutputFolder held(folder_);
     const std::string said = Refusal<EnvironmentError>();
     EXPECT_THAT(said, HasSubstr(folder_.string() + ": process " + process + " on "));
     EXPECT_THAT(said, HasSubstr("is writing into this folder"));
-    EXPECT_EQ(InChild([&] { return HeldFolder(folder_, kAtOnce).left_behind().empty(); }), 99);
+    EXPECT_EQ(InChild([&] { return LockedOutputFolder(folder_, kAtOnce).left_behind().empty(); }),
+              99);
   }
   EXPECT_EQ(Refusal<EnvironmentError>(), "nothing was refused");
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(HeldFolderTest, AFolderIsMadeAndGoesWhereNothingWasPutIntoIt) {
+TEST_F(LockedOutputFolderTest, AFolderIsMadeAndGoesWhereNothingWasPutIntoIt) {
   const fs::path outer = folder_ / "a";
   const fs::path inner = outer / "b" / "c";
-  { const HeldFolder folder(inner); }
+  { const LockedOutputFolder folder(inner); }
   EXPECT_FALSE(fs::exists(outer));
   {
-    const HeldFolder folder(inner);
+    const LockedOutputFolder folder(inner);
     WriteFile(outer / "mine", "");
   }
   EXPECT_FALSE(fs::exists(outer / "b"));
   EXPECT_TRUE(fs::exists(outer / "mine"));
-  { const HeldFolder folder(outer); }
+  { const LockedOutputFolder folder(outer); }
   EXPECT_TRUE(fs::exists(outer / "mine"));
   fs::create_directory(folder_ / "empty");
-  { const HeldFolder folder(folder_ / "empty"); }
+  { const LockedOutputFolder folder(folder_ / "empty"); }
   EXPECT_TRUE(fs::exists(folder_ / "empty"));
 }
 
-TEST_F(HeldFolderTest, AKilledProcessLeavesNoLockButWhatItAnnounced) {
+TEST_F(LockedOutputFolderTest, AKilledProcessLeavesNoLockButWhatItAnnounced) {
   const auto announce = [&](const std::vector<std::string>& names) {
     return InChild([&] {
-      HeldFolder folder(folder_, kAtOnce);
+      LockedOutputFolder folder(folder_, kAtOnce);
       folder.Announce(names);
       return raise(SIGKILL);
     });
@@ -100,18 +101,18 @@ TEST_F(HeldFolderTest, AKilledProcessLeavesNoLockButWhatItAnnounced) {
   // A process that is killed adds its own files as well.
   EXPECT_EQ(announce({"c d.png"}), -SIGKILL);
   {
-    const HeldFolder folder(folder_, kAtOnce);
+    const LockedOutputFolder folder(folder_, kAtOnce);
     EXPECT_THAT(folder.left_behind(), ElementsAre("a.png", "b.png", "c d.png"));
   }
-  EXPECT_THAT(HeldFolder(folder_, kAtOnce).left_behind(), IsEmpty());
+  EXPECT_THAT(LockedOutputFolder(folder_, kAtOnce).left_behind(), IsEmpty());
 }
 
-TEST_F(HeldFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
+TEST_F(LockedOutputFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   pid_t child = -1;
   {
-    const HeldFolder folder(folder_, kAtOnce);
+    const LockedOutputFolder folder(folder_, kAtOnce);
     child = fork();
     if (child == 0) {
       char byte = 0;
@@ -130,13 +131,13 @@ TEST_F(HeldFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
   EXPECT_EQ(Refusal<EnvironmentError>(), "nothing was refused");
 }
 
-TEST_F(HeldFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
+TEST_F(LockedOutputFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
   constexpr int kProcesses = 4;
   constexpr int kTurns = 200;
   const auto take_turns = [&] {
     int turns = 0;
     for (int i = 0; i < kTurns; ++i) {
-      const HeldFolder folder(folder_ / "out", kHang);
+      const LockedOutputFolder folder(folder_ / "out", kHang);
       const std::string mark = folder_ / "mark";
       const int alone = open(mark.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
       turns += alone >= 0;
@@ -158,7 +159,7 @@ TEST_F(HeldFolderTest, NoTwoProcessesHoldItHoweverOftenItChangesHands) {
   }
 }
 
-TEST_F(HeldFolderTest, WhatIsNotOursIsRefusedAndStays) {
+TEST_F(LockedOutputFolderTest, WhatIsNotOursIsRefusedAndStays) {
   const fs::path file = folder_ / kRunFileName;
   WriteFile(file, "shopping list\n");
   EXPECT_THAT(Refusal<InputError>(), HasSubstr("cannot overwrite"));
@@ -177,13 +178,13 @@ TEST_F(HeldFolderTest, WhatIsNotOursIsRefusedAndStays) {
   EXPECT_TRUE(fs::is_fifo(file));
 }
 
-TEST_F(HeldFolderTest, AFolderThatCannotBeMadeIsNamed) {
+TEST_F(LockedOutputFolderTest, AFolderThatCannotBeMadeIsNamed) {
   WriteFile(folder_ / "file", "");
-  EXPECT_THROW(HeldFolder(folder_ / "file" / "out", kAtOnce), EnvironmentError);
-  EXPECT_THROW(HeldFolder(folder_ / "file", kAtOnce), EnvironmentError);
+  EXPECT_THROW(LockedOutputFolder(folder_ / "file" / "out", kAtOnce), EnvironmentError);
+  EXPECT_THROW(LockedOutputFolder(folder_ / "file", kAtOnce), EnvironmentError);
   fs::create_symlink("nowhere", folder_ / "link");
-  EXPECT_THROW(HeldFolder(folder_ / "link", kAtOnce), EnvironmentError);
+  EXPECT_THROW(LockedOutputFolder(folder_ / "link", kAtOnce), EnvironmentError);
 }
 
-}  // namespace held_folder_test
+}  // namespace locked_output_folder_test
 }  // namespace regrasp::apps

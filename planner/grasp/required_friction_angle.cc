@@ -1,4 +1,4 @@
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace regrasp::grasp {
 namespace {
 
 /// Largest friction angle of the search: 1e-6 rad below π/2, as in the header.
-constexpr double kLargestHalfAngle = std::numbers::pi / 2 - 1e-6;
+constexpr double kLargestFrictionAngle = std::numbers::pi / 2 - 1e-6;
 
 /// Limit on bisection steps. The bracket halves at every step, so any tolerance needs fewer.
 constexpr int kMaxSteps = 64;
@@ -30,12 +30,12 @@ class Bracket {
   Bracket(UnitContacts contacts, double tolerance)
       : search_(std::move(contacts)), tolerance_(tolerance) {}
 
-  std::optional<RequiredHalfAngle> Find() {
-    if (search_.Decide(kLargestHalfAngle) != Decision::kYes) return std::nullopt;
-    return Narrow({0, kLargestHalfAngle});
+  std::optional<RequiredFrictionAngle> Find() {
+    if (search_.Decide(kLargestFrictionAngle) != Decision::kYes) return std::nullopt;
+    return Narrow({0, kLargestFrictionAngle});
   }
 
-  RequiredHalfAngle Narrow(const RequiredHalfAngle& known) {
+  RequiredFrictionAngle Narrow(const RequiredFrictionAngle& known) {
     bounds_ = known;
     for (int step = 0; step < kMaxSteps && bounds_.upper - bounds_.lower > tolerance_; ++step) {
       const double middle = bounds_.lower + (bounds_.upper - bounds_.lower) / 2;
@@ -59,7 +59,7 @@ class Bracket {
  private:
   /// Confirm without reuse a decision that used columns of other angles.
   /// Near the required angle one of the two decisions may be too close to call.
-  void Confirm(const RequiredHalfAngle& known) {
+  void Confirm(const RequiredFrictionAngle& known) {
     double d = tolerance_ / kWiden;
     while (bounds_.upper < known.upper && search_.DecideAlone(bounds_.upper) != Decision::kYes) {
       bounds_.upper = std::min(bounds_.upper + d, known.upper);
@@ -72,27 +72,28 @@ class Bracket {
     }
   }
 
-  void CloseIn(double half_angle) {
-    for (double d = tolerance_ / kWiden; half_angle - d > bounds_.lower; d *= kWiden) {
-      if (search_.Decide(half_angle - d) == Decision::kNo) bounds_.lower = half_angle - d;
+  void CloseIn(double friction_angle) {
+    for (double d = tolerance_ / kWiden; friction_angle - d > bounds_.lower; d *= kWiden) {
+      if (search_.Decide(friction_angle - d) == Decision::kNo) bounds_.lower = friction_angle - d;
     }
-    for (double d = tolerance_ / kWiden; half_angle + d < bounds_.upper; d *= kWiden) {
-      if (search_.Decide(half_angle + d) == Decision::kYes) bounds_.upper = half_angle + d;
+    for (double d = tolerance_ / kWiden; friction_angle + d < bounds_.upper; d *= kWiden) {
+      if (search_.Decide(friction_angle + d) == Decision::kYes) bounds_.upper = friction_angle + d;
     }
   }
 
   FrictionSearch<kDim> search_;
   double tolerance_;
-  RequiredHalfAngle bounds_;
+  RequiredFrictionAngle bounds_;
 };
 
 /// Return the result of `find` for the bracket of a grasp; nullopt if all contacts coincide.
 template <class Find>
-std::optional<RequiredHalfAngle> WithBracket(std::span<const Contact> contacts,
-                                             const object::WrenchFrame& frame, double tolerance,
-                                             const Find& find) {
+std::optional<RequiredFrictionAngle> WithBracket(std::span<const Contact> contacts,
+                                                 const object::WrenchFrame& frame, double tolerance,
+                                                 const Find& find) {
   CheckGrasp(contacts, frame);
-  if (!(tolerance > 0)) throw std::invalid_argument("required half-angle: tolerance not positive");
+  if (!(tolerance > 0))
+    throw std::invalid_argument("required friction angle: tolerance not positive");
   const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) return std::nullopt;
   const UnitContacts units = MakeUnitContacts(contacts, own);
@@ -106,16 +107,17 @@ std::optional<RequiredHalfAngle> WithBracket(std::span<const Contact> contacts,
 
 }  // namespace
 
-std::optional<RequiredHalfAngle> ComputeRequiredHalfAngle(std::span<const Contact> contacts,
-                                                          const object::WrenchFrame& frame,
-                                                          double tolerance) {
+std::optional<RequiredFrictionAngle> ComputeRequiredFrictionAngle(std::span<const Contact> contacts,
+                                                                  const object::WrenchFrame& frame,
+                                                                  double tolerance) {
   return WithBracket(contacts, frame, tolerance, [](auto& bracket) { return bracket.Find(); });
 }
 
-RequiredHalfAngle NarrowRequiredHalfAngle(std::span<const Contact> contacts,
-                                          const object::WrenchFrame& frame,
-                                          const RequiredHalfAngle& known, double tolerance) {
-  const auto narrow = [&](auto& bracket) -> std::optional<RequiredHalfAngle> {
+RequiredFrictionAngle NarrowRequiredFrictionAngle(std::span<const Contact> contacts,
+                                                  const object::WrenchFrame& frame,
+                                                  const RequiredFrictionAngle& known,
+                                                  double tolerance) {
+  const auto narrow = [&](auto& bracket) -> std::optional<RequiredFrictionAngle> {
     return bracket.Narrow(known);
   };
   return WithBracket(contacts, frame, tolerance, narrow).value_or(known);

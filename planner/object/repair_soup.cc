@@ -1,4 +1,4 @@
-#include "planner/object/mend_soup.h"
+#include "planner/object/repair_soup.h"
 
 #include <algorithm>
 #include <array>
@@ -277,7 +277,7 @@ bool DropRepeatedFacets(WeldedSoup& soup) {
 
 }  // namespace
 
-bool MendSoup(WeldedSoup& soup, double diameter) {
+bool RepairSoup(WeldedSoup& soup, double diameter) {
   const bool welded = WeldBorders(soup, diameter);
   const bool flattened = DropFlattened(soup);
   const bool repeated = DropRepeatedFacets(soup);

@@ -14,18 +14,19 @@ namespace regrasp::sim {
 /// Return the directions of disturbances.
 /// They are ± a force along every axis, then ± a torque about every axis. There are twelve in
 /// space. In the plane there are six: forces along x and y, and torques about z.
-[[nodiscard]] std::vector<Push> PushDirections(int dimension);
+[[nodiscard]] std::vector<Disturbance> DisturbanceDirections(int dimension);
 
 /// Return "force +x" or "torque -z".
-[[nodiscard]] std::string PushName(const Push& push);
+[[nodiscard]] std::string DisturbanceName(const Disturbance& disturbance);
 
 /// Describe a disturbance for messages, with its size and direction.
 /// @param size    force, or torque over `radius`, newtons.
 /// @param radius  metres.
-[[nodiscard]] std::string PushText(const Push& push, double size, double radius);
+[[nodiscard]] std::string DisturbanceText(const Disturbance& disturbance, double size,
+                                          double radius);
 
 /// Return the wrench of a force of `size`, or of a torque of `size` times the frame's radius.
-[[nodiscard]] grasp::Wrench PushWrench(const Push& push, double size);
+[[nodiscard]] grasp::Wrench DisturbanceWrench(const Disturbance& disturbance, double size);
 
 /// Response of the fingers to a disturbance.
 enum class DisturbanceResponse {
@@ -36,20 +37,21 @@ enum class DisturbanceResponse {
 };
 
 /// Apply the disturbance test to a static grasp.
-/// In every direction, one after the other, it applies a force of shake · grasp force, then a
-/// torque of that over R, in addition to the weight. Each lasts until everything is still
+/// In every direction, one after the other, it applies a force of disturbance_ratio · grasp force,
+/// then a torque of that over R, in addition to the weight. Each lasts until everything is still
 /// (sim/world/stillness.h). The world's monitor measures; the test stops at the first disturbance
 /// that the grasp does not resist. Afterwards the world is restored, even after an exception.
 /// @param on_fault  callback before the world is restored after the failing disturbance.
 /// @throws UnstableError  if the simulation becomes unstable.
-void Shake(ReplayWorld& world, DisturbanceResponse response,
-           const std::function<void(const plan::FaultPush& push)>& on_fault);
+void ApplyDisturbances(
+    ReplayWorld& world, DisturbanceResponse response,
+    const std::function<void(const plan::FaultDisturbance& disturbance)>& on_fault);
 
 /// Apply one disturbance to a static grasp, and measure its contacts.
 /// With adapted forces, these and the disturbance stay; with fixed forces the disturbance is
 /// removed again.
 /// @throws UnstableError  if the simulation becomes unstable.
-void PushOnce(ReplayWorld& world, const grasp::Wrench& push_S, DisturbanceResponse response);
+void DisturbOnce(ReplayWorld& world, const grasp::Wrench& wrench_S, DisturbanceResponse response);
 
 /// Guard of a static grasp: saves the state of the world, and restores it when destroyed.
 class KeepRest {
@@ -70,14 +72,14 @@ class KeepRest {
 /// Return the largest disturbance size that an unsupported object could appear to resist.
 /// Under it, such an object moves by the tolerance (FreeMotion), or so little in kStillTime that it
 /// appears still.
-[[nodiscard]] double LeastShake(double tolerance);
+[[nodiscard]] double LeastDisturbance(double tolerance);
 
 /// Check the disturbance size; 0 is allowed.
 /// @throws InputError  if an unsupported object would pass the disturbance test.
-void CheckShake(const ReplaySettings& settings);
+void CheckDisturbance(const ReplaySettings& settings);
 
 /// Characteristic times (ReplaySettings); a finger's servo settles in a tenth.
-inline constexpr double kPushRamp = 0.6;
+inline constexpr double kDisturbanceRamp = 0.6;
 
 class ReplayWorld;
 
@@ -87,10 +89,10 @@ class ReplayWorld;
 ///
 /// The criteria are those of a step: the object must not move, slip or lose a contact by more than
 /// the tolerance. A grasp that resists two disturbances resists all in between, so bisection finds
-/// the limit: to kStressGap of it, or to kLeastStress.
-[[nodiscard]] std::vector<DirectionStress> MeasureStress(ReplayWorld& world);
+/// the limit: to kResistedGap of it, or to kLeastResisted.
+[[nodiscard]] std::vector<ResistedWrench> MeasureResistedWrenches(ReplayWorld& world);
 
-inline constexpr double kStressGap = 0.01;    ///< over the limit
-inline constexpr double kLeastStress = 1e-4;  ///< difference below which disturbances are equal
+inline constexpr double kResistedGap = 0.01;    ///< over the limit
+inline constexpr double kLeastResisted = 1e-4;  ///< difference below which disturbances are equal
 
 }  // namespace regrasp::sim

@@ -14,7 +14,7 @@ namespace regrasp::plan {
 [[nodiscard]] std::string VectorText(const Eigen::Vector3d& v, int dimension);
 
 /// Contact of a file, placed on the object.
-struct LocatedContact {
+struct ProjectedContact {
   /// Point projected onto its face, the face's normal, and the face. As given and with face −1 if
   /// there is no face.
   grasp::Contact contact;
@@ -27,8 +27,8 @@ struct LocatedContact {
 /// nearest to the contact's. That normal must be within kNormalTolerance of the contact's, whose
 /// length must be 1 within kNormalLengthTolerance. If faces meet at the point, the normal thus
 /// selects the face.
-[[nodiscard]] LocatedContact LocateContact(const object::Object& object,
-                                           const grasp::Contact& contact);
+[[nodiscard]] ProjectedContact ProjectContact(const object::Object& object,
+                                              const grasp::Contact& contact);
 
 /// Return the point on the surface nearest to a contact's point, with the normal there.
 /// If faces are equally near, it is on the one whose normal is nearest to the contact's.
@@ -37,21 +37,21 @@ struct LocatedContact {
 
 /// Return all placements of a contact within the tolerances.
 /// They are ordered by the distance of the normals, ties by distance and index; the first is that
-/// of LocateContact. Empty if LocateContact finds no face.
-[[nodiscard]] std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
-                                                           const grasp::Contact& contact);
+/// of ProjectContact. Empty if ProjectContact finds no face.
+[[nodiscard]] std::vector<grasp::Contact> ProjectOnAllFaces(const object::Object& object,
+                                                            const grasp::Contact& contact);
 
-/// Place every contact of a plan on the object without checks (see PlanCheck::located).
-[[nodiscard]] Plan LocatePlan(const object::Object& object, const Plan& plan);
+/// Place every contact of a plan on the object without checks (see PlanCheck::projected).
+[[nodiscard]] Plan ProjectPlan(const object::Object& object, const Plan& plan);
 
-/// Place the contacts of a sliding step on the object, as LocateContact does.
+/// Place the contacts of a sliding step on the object, as ProjectContact does.
 /// A contact may be on several faces with the same normal, for example at a vertex between
 /// collinear edges. Each finger's faces are then chosen so that its motion between waypoints has
 /// the fewest faults (FindMotionFault), then by the nearest normals.
-void LocateAlign(const object::Object& object, Align& align);
+void ProjectAlign(const object::Object& object, Align& align);
 
 /// Many located grasps of k contacts each, in the layout of grasp::GraspArrays.
-struct LocatedGrasps {
+struct ProjectedGrasps {
   std::vector<double> points;   ///< points projected onto the surface
   std::vector<double> normals;  ///< unit vectors into the object: the faces' normals
   /// Reason per grasp why it is invalid, or kNone. kOffSurface and kWrongNormal refer to the first
@@ -63,15 +63,15 @@ struct LocatedGrasps {
   std::vector<int> contacts;
 };
 
-/// Place every contact as those of a grasp file (LocateContact).
+/// Place every contact as those of a grasp file (ProjectContact).
 /// @param points   N x k x 3 finite values.
 /// @param normals  N x k x 3 values, or none: each contact is then on the only face at its point.
 /// @param threads  number of threads; 0: one per core of the machine.
 /// @throws std::invalid_argument  if the numbers of values do not match, or the number of threads
 ///     is negative.
-[[nodiscard]] LocatedGrasps LocateGrasps(const object::Object& object,
-                                         std::span<const double> points,
-                                         std::span<const double> normals, int contacts,
-                                         int threads = 0);
+[[nodiscard]] ProjectedGrasps ProjectGrasps(const object::Object& object,
+                                            std::span<const double> points,
+                                            std::span<const double> normals, int contacts,
+                                            int threads = 0);
 
 }  // namespace regrasp::plan

@@ -1,4 +1,4 @@
-#include "apps/held_folder.h"
+#include "apps/locked_output_folder.h"
 
 #include <fcntl.h>
 #include <limits.h>
@@ -116,7 +116,7 @@ Descriptor Lock(const fs::path& folder, const fs::path& file, std::chrono::milli
 
 }  // namespace
 
-HeldFolder::MadeFolders::MadeFolders(const fs::path& folder) {
+LockedOutputFolder::MadeFolders::MadeFolders(const fs::path& folder) {
   std::error_code error;
   for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) {
     folders_.push_back(at);
@@ -124,14 +124,14 @@ HeldFolder::MadeFolders::MadeFolders(const fs::path& folder) {
   std::ranges::reverse(folders_);
 }
 
-HeldFolder::MadeFolders::~MadeFolders() {
+LockedOutputFolder::MadeFolders::~MadeFolders() {
   // A folder that is not empty is kept.
   for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
     if (rmdir(folder->c_str()) != 0 && errno != ENOENT) return;
   }
 }
 
-HeldFolder::HeldFolder(fs::path path, std::chrono::milliseconds patience)
+LockedOutputFolder::LockedOutputFolder(fs::path path, std::chrono::milliseconds patience)
     : path_(std::move(path)),
       made_(path_),
       file_(path_ / kRunFileName),
@@ -147,17 +147,17 @@ HeldFolder::HeldFolder(fs::path path, std::chrono::milliseconds patience)
   Append(std::string(kHolder) + std::to_string(getpid()) + " on " + HostName() + "\n");
 }
 
-HeldFolder::~HeldFolder() {
+LockedOutputFolder::~LockedOutputFolder() {
   if (IsAt(file_, descriptor_)) unlink(file_.c_str());
 }
 
-void HeldFolder::Announce(const std::vector<std::string>& names) {
+void LockedOutputFolder::Announce(const std::vector<std::string>& names) {
   std::string lines;
   for (const std::string& name : names) lines += std::string(kWrites) + name + "\n";
   Append(lines);
 }
 
-void HeldFolder::Append(const std::string& lines) {
+void LockedOutputFolder::Append(const std::string& lines) {
   std::string_view rest = lines;
   while (!rest.empty()) {
     const ssize_t count = write(descriptor_.get(), rest.data(), rest.size());

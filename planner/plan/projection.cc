@@ -1,4 +1,4 @@
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "planner/base/in_blocks.h"
 #include "planner/base/number.h"
-#include "planner/grasp/required_half_angle.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check_step.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/surface_tolerance.h"
@@ -24,8 +24,8 @@ namespace {
 /// anywhere.
 constexpr double kFarthest = 1e6;
 
-void LocateAll(const object::Object& object, FingerGrasp& grasp) {
-  for (FingerContact& held : grasp) held.contact = LocateContact(object, held.contact).contact;
+void ProjectAll(const object::Object& object, FingerGrasp& grasp) {
+  for (FingerContact& held : grasp) held.contact = ProjectContact(object, held.contact).contact;
 }
 
 bool IsUnit(const Eigen::Vector3d& normal) {
@@ -72,27 +72,27 @@ std::string VectorText(const Eigen::Vector3d& v, int dimension) {
   return text + ")";
 }
 
-LocatedContact LocateContact(const object::Object& object, const grasp::Contact& contact) {
-  LocatedContact located{{contact.p, contact.n}, Reason::kNone, ""};
+ProjectedContact ProjectContact(const object::Object& object, const grasp::Contact& contact) {
+  ProjectedContact projected{{contact.p, contact.n}, Reason::kNone, ""};
   const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
   if (faces.empty()) {
-    located.reason = Reason::kOffSurface;
-    return located;
+    projected.reason = Reason::kOffSurface;
+    return projected;
   }
   if (!IsUnit(contact.n)) {
-    located.reason = Reason::kWrongNormal;
-    located.detail = "the normal is " + FormatShort(contact.n.norm()) + " long, not 1";
-    return located;
+    projected.reason = Reason::kWrongNormal;
+    projected.detail = "the normal is " + FormatShort(contact.n.norm()) + " long, not 1";
+    return projected;
   }
   const auto [least, nearest] = RankFaces(faces, object, contact).front();
   if (!(least <= kNormalTolerance)) {
-    located.reason = Reason::kWrongNormal;
-    located.detail = "the normal differs by " + FormatDegrees(Degrees(least)) +
-                     " from the inward normal of face " + std::to_string(nearest);
-    return located;
+    projected.reason = Reason::kWrongNormal;
+    projected.detail = "the normal differs by " + FormatDegrees(Degrees(least)) +
+                       " from the inward normal of face " + std::to_string(nearest);
+    return projected;
   }
-  located.contact = Project(object, contact, nearest);
-  return located;
+  projected.contact = Project(object, contact, nearest);
+  return projected;
 }
 
 grasp::Contact NearestContact(const object::Object& object, const grasp::Contact& contact) {
@@ -109,8 +109,8 @@ grasp::Contact NearestContact(const object::Object& object, const grasp::Contact
                  RankFaces(object.FacesNear(p, least + tolerance), object, near).front().second);
 }
 
-std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
-                                             const grasp::Contact& contact) {
+std::vector<grasp::Contact> ProjectOnAllFaces(const object::Object& object,
+                                              const grasp::Contact& contact) {
   std::vector<grasp::Contact> places;
   if (!IsUnit(contact.n)) return places;
   const std::vector<FaceIndex> faces = object.FacesNear(contact.p, SurfaceTolerance(object));
@@ -120,19 +120,19 @@ std::vector<grasp::Contact> LocateEverywhere(const object::Object& object,
   return places;
 }
 
-Plan LocatePlan(const object::Object& object, const Plan& plan) {
-  Plan located = plan;
-  LocateAll(object, located.initial);
-  for (Step& step : located.steps) {
+Plan ProjectPlan(const object::Object& object, const Plan& plan) {
+  Plan projected = plan;
+  ProjectAll(object, projected.initial);
+  for (Step& step : projected.steps) {
     if (auto* finger_switch = std::get_if<Switch>(&step)) {
-      LocateAll(object, finger_switch->place);
+      ProjectAll(object, finger_switch->place);
     } else if (auto* align = std::get_if<Align>(&step)) {
-      LocateAlign(object, *align);
+      ProjectAlign(object, *align);
     }
   }
-  for (grasp::Contact& contact : located.goal) contact = LocateContact(object, contact).contact;
-  SetTorsion(plan.torsion, located);
-  return located;
+  for (grasp::Contact& contact : projected.goal) contact = ProjectContact(object, contact).contact;
+  SetTorsion(plan.torsion, projected);
+  return projected;
 }
 
 namespace {
@@ -156,11 +156,11 @@ using Choices = std::vector<Choice>;
 
 Choices FindChoices(const object::Object& object, const grasp::Contact& contact) {
   Choices choices;
-  for (const grasp::Contact& place : LocateEverywhere(object, contact)) {
+  for (const grasp::Contact& place : ProjectOnAllFaces(object, contact)) {
     if (choices.size() == kMostChoices) break;
     choices.push_back({place, 0, static_cast<int>(choices.size())});
   }
-  if (choices.empty()) choices.push_back({LocateContact(object, contact).contact});
+  if (choices.empty()) choices.push_back({ProjectContact(object, contact).contact});
   return choices;
 }
 
@@ -201,7 +201,7 @@ void KeepTurningPoints(const object::Object& object, const std::vector<grasp::Co
 }
 
 /// Place the contacts of one finger, in the order of the waypoints.
-void LocateChain(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
+void ProjectChain(const object::Object& object, const std::vector<grasp::Contact*>& chain) {
   std::vector<Choices> choices;
   for (const grasp::Contact* contact : chain) {
     choices.push_back(FindChoices(object, *contact));
@@ -218,7 +218,7 @@ void LocateChain(const object::Object& object, const std::vector<grasp::Contact*
 
 }  // namespace
 
-void LocateAlign(const object::Object& object, Align& align) {
+void ProjectAlign(const object::Object& object, Align& align) {
   // A finger that a waypoint names twice, by mistake, counts as two chains.
   std::map<std::pair<FingerIndex, int>, std::vector<grasp::Contact*>> chains;
   for (FingerGrasp& waypoint : align.waypoints) {
@@ -227,7 +227,7 @@ void LocateAlign(const object::Object& object, Align& align) {
       chains[{held.finger, named[held.finger]++}].push_back(&held.contact);
     }
   }
-  for (const auto& [finger, chain] : chains) LocateChain(object, chain);
+  for (const auto& [finger, chain] : chains) ProjectChain(object, chain);
 }
 
 namespace {
@@ -237,7 +237,7 @@ constexpr std::size_t kBlock = 256;  // grasps per block of work
 using Vector = Eigen::Map<Eigen::Vector3d>;
 
 /// Return the contact of a point without a normal; a reason off the surface and on borders.
-LocatedContact LocatePoint(const object::Object& object, const Eigen::Vector3d& point) {
+ProjectedContact ProjectPoint(const object::Object& object, const Eigen::Vector3d& point) {
   const double tolerance = SurfaceTolerance(object);
   const std::vector<FaceIndex> faces = object.FacesNear(point, tolerance);
   if (faces.empty()) return {{point, {}}, Reason::kOffSurface, ""};
@@ -260,8 +260,8 @@ bool Coincide(std::span<const double> points, double tolerance) {
 
 }  // namespace
 
-LocatedGrasps LocateGrasps(const object::Object& object, std::span<const double> points,
-                           std::span<const double> normals, int contacts, int threads) {
+ProjectedGrasps ProjectGrasps(const object::Object& object, std::span<const double> points,
+                              std::span<const double> normals, int contacts, int threads) {
   const bool has_normals = !normals.empty();
   if (contacts < 1 || points.size() % (3 * static_cast<std::size_t>(contacts)) != 0 ||
       (has_normals && normals.size() != points.size())) {
@@ -271,34 +271,35 @@ LocatedGrasps LocateGrasps(const object::Object& object, std::span<const double>
   }
   const auto k = static_cast<std::size_t>(contacts);
   const double tolerance = object::kPointTolerance * object.diameter();
-  LocatedGrasps located;
-  located.points.assign(points.begin(), points.end());
-  located.normals.assign(normals.begin(), normals.end());
-  located.normals.resize(points.size());
-  located.reasons.resize(points.size() / (3 * k));
-  located.contacts.resize(located.reasons.size(), -1);
-  InBlocks(located.reasons.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+  ProjectedGrasps projected;
+  projected.points.assign(points.begin(), points.end());
+  projected.normals.assign(normals.begin(), normals.end());
+  projected.normals.resize(points.size());
+  projected.reasons.resize(points.size() / (3 * k));
+  projected.contacts.resize(projected.reasons.size(), -1);
+  InBlocks(projected.reasons.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t grasp = begin; grasp < end; ++grasp) {
-      for (std::size_t c = 0; c < k && located.reasons[grasp] == Reason::kNone; ++c) {
+      for (std::size_t c = 0; c < k && projected.reasons[grasp] == Reason::kNone; ++c) {
         const std::size_t at = 3 * (grasp * k + c);
-        Vector p(&located.points[at]), n(&located.normals[at]);
-        const LocatedContact found =
-            has_normals ? LocateContact(object, {p, n}) : LocatePoint(object, p);
-        located.reasons[grasp] = found.reason;
+        Vector p(&projected.points[at]), n(&projected.normals[at]);
+        const ProjectedContact found =
+            has_normals ? ProjectContact(object, {p, n}) : ProjectPoint(object, p);
+        projected.reasons[grasp] = found.reason;
         p = found.contact.p;
         n = found.contact.n;
         if (found.reason == Reason::kNone && object.IsEnclosed(found.contact.face)) {
-          located.reasons[grasp] = Reason::kUnreachable;
+          projected.reasons[grasp] = Reason::kUnreachable;
         }
-        if (located.reasons[grasp] != Reason::kNone) located.contacts[grasp] = static_cast<int>(c);
+        if (projected.reasons[grasp] != Reason::kNone)
+          projected.contacts[grasp] = static_cast<int>(c);
       }
-      const auto own = std::span(located.points).subspan(3 * grasp * k, 3 * k);
-      if (located.reasons[grasp] == Reason::kNone && Coincide(own, tolerance)) {
-        located.reasons[grasp] = Reason::kCoincidentFingers;
+      const auto own = std::span(projected.points).subspan(3 * grasp * k, 3 * k);
+      if (projected.reasons[grasp] == Reason::kNone && Coincide(own, tolerance)) {
+        projected.reasons[grasp] = Reason::kCoincidentFingers;
       }
     }
   });
-  return located;
+  return projected;
 }
 
 }  // namespace regrasp::plan

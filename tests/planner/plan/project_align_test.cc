@@ -3,11 +3,11 @@
 #include <string>
 
 #include "planner/object/object.h"
-#include "planner/plan/locate.h"
+#include "planner/plan/projection.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::plan {
-namespace locate_align_test {
+namespace project_align_test {
 
 using Eigen::Vector3d;
 
@@ -19,7 +19,7 @@ Align TurnOver(const object::Object& object, FaceIndex face, const object::FaceB
            {{FingerIndex(0), {q, object.inward_normal(edge.beyond), {}}}}}};
 }
 
-TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
+TEST(ProjectAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
   constexpr int kPoints = 16;
   const object::ObjectFile file = object::ReadObject(ProjectPath("models/stone.obj"));
   const object::Object& stone = *file.object;
@@ -29,7 +29,7 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
       for (int i = 1; i < kPoints; ++i) {
         const Vector3d p = edge.a + static_cast<double>(i) / kPoints * (edge.b - edge.a);
         Align align = TurnOver(stone, face, edge, p, p);
-        LocateAlign(stone, align);
+        ProjectAlign(stone, align);
         const grasp::Contact& before = align.waypoints[0][0].contact;
         const grasp::Contact& after = align.waypoints[1][0].contact;
         EXPECT_EQ(before.face, face);
@@ -42,17 +42,17 @@ TEST(LocateAlign, AFingerThatTurnsOverAnEdgeKeepsItsPointExactly) {
   EXPECT_GT(rounded, 0) << "the projections are not always the same";
 }
 
-TEST(LocateAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
+TEST(ProjectAlign, PointsThatDifferByMoreThanRoundingStayWhereTheFileHasThem) {
   const object::ObjectFile file = object::ReadObject(ProjectPath("models/cube.obj"));
   const object::Object& cube = *file.object;
   const object::FaceBorder edge = cube.BordersOf(FaceIndex(0)).front();
   const Vector3d p = (edge.a + edge.b) / 2;
   const double off = 1e-8 * cube.diameter();
   Align align = TurnOver(cube, FaceIndex(0), edge, p, p + off * (edge.b - edge.a).normalized());
-  LocateAlign(cube, align);
+  ProjectAlign(cube, align);
   const double apart = (align.waypoints[0][0].contact.p - align.waypoints[1][0].contact.p).norm();
   EXPECT_NEAR(apart, off, off / 1000);
 }
 
-}  // namespace locate_align_test
+}  // namespace project_align_test
 }  // namespace regrasp::plan

@@ -1,4 +1,4 @@
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace regrasp::apps {
 
 namespace fs = std::filesystem;
 
-SharedObject ObjectShelf::Get(const std::string& key,
+SharedObject ObjectCache::Get(const std::string& key,
                               const std::function<object::ObjectFile()>& read) {
   auto place = std::ranges::find(places_, key, &Place::key);
   if (place == places_.end()) {

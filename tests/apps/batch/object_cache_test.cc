@@ -1,4 +1,4 @@
-#include "apps/batch/object_shelf.h"
+#include "apps/batch/object_cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "tests/fixtures/folder_test.h"
 
 namespace regrasp::apps {
-namespace object_shelf_test {
+namespace object_cache_test {
 
 using testing::HasSubstr;
 
@@ -18,11 +18,11 @@ object::ObjectFile Named(const std::string& name) {
   return file;
 }
 
-TEST(ObjectShelfTest, AnObjectIsReadOnceWhileItIsAskedFor) {
-  ObjectShelf shelf;
+TEST(ObjectCacheTest, AnObjectIsReadOnceWhileItIsAskedFor) {
+  ObjectCache object_cache;
   int reads = 0;
   const auto get = [&](const std::string& key) {
-    return shelf.Get(key, [&] {
+    return object_cache.Get(key, [&] {
       ++reads;
       return Named(key);
     });
@@ -33,7 +33,7 @@ TEST(ObjectShelfTest, AnObjectIsReadOnceWhileItIsAskedFor) {
   }
   EXPECT_EQ(reads, 2);
   // The least recently used object is evicted.
-  for (std::size_t i = 0; i < ObjectShelf::kMost - 1; ++i) {
+  for (std::size_t i = 0; i < ObjectCache::kMost - 1; ++i) {
     (void)get("other" + std::to_string(i));
     (void)get("a");
   }
@@ -44,8 +44,8 @@ TEST(ObjectShelfTest, AnObjectIsReadOnceWhileItIsAskedFor) {
   EXPECT_EQ(reads, 1);
 }
 
-TEST(ObjectShelfTest, WhatCannotBeReadIsTriedOnce) {
-  ObjectShelf shelf;
+TEST(ObjectCacheTest, WhatCannotBeReadIsTriedOnce) {
+  ObjectCache object_cache;
   int reads = 0;
   const auto read = [&]() -> object::ObjectFile {
     ++reads;
@@ -53,7 +53,7 @@ TEST(ObjectShelfTest, WhatCannotBeReadIsTriedOnce) {
   };
   for (int i = 0; i < 3; ++i) {
     try {
-      (void)shelf.Get("a", read);
+      (void)object_cache.Get("a", read);
       ADD_FAILURE();
     } catch (const InputError& error) {
       EXPECT_STREQ(error.what(), "a.obj: is broken");
@@ -87,5 +87,5 @@ TEST_F(ObjectFinderTest, TakesTheNameWhereItsDigestIsRightAndOtherwiseTheDigest)
   EXPECT_FALSE(one.is_folder());
 }
 
-}  // namespace object_shelf_test
+}  // namespace object_cache_test
 }  // namespace regrasp::apps
