@@ -89,8 +89,8 @@ std::string ExplainText(std::string_view name, int width) {
   for (const FailureReason& reason : plan::FailureReasons()) {
     list += ", " + std::string(reason.name);
   }
-  throw InputError("--explain: unknown failure reason \"" + std::string(name) +
-                   "\", expected one of " + list);
+  throw InputError("--explain: failure reason not found, expected one of " + list + ", found \"" +
+                   std::string(name) + "\"");
 }
 
 }  // namespace regrasp::apps

@@ -38,7 +38,7 @@ void CheckFinite(const NpzArray& array, const std::string& file) {
   const std::size_t width = array.shape[2];
   throw InputError(file + ": " + array.name + "[" + std::to_string(at / (array.shape[1] * width)) +
                    ", " + std::to_string(at / width % array.shape[1]) + ", " +
-                   std::to_string(at % width) + "] is not finite");
+                   std::to_string(at % width) + "] must be finite, found " + FormatDouble(*found));
 }
 
 /// Return vectors in space, with z = 0 if the array has only x and y.

@@ -232,8 +232,7 @@ std::string CountsText(const Verdicts& verdicts) {
 }
 
 /// Return the line about the first contact off the surface; empty if none is.
-/// Example: "off-surface: grasp 3, contact 1 (the first): 0.001 of the object file's units off the
-/// surface, …".
+/// Example: "off-surface: grasp 3, contact 1 (the first): off the surface, expected at most …".
 std::string OffSurfaceLine(const object::Object& object, const Verdicts& verdicts) {
   if (!verdicts.off_surface) return "";
   const OffSurface& first = *verdicts.off_surface;

@@ -56,7 +56,7 @@ int MergeProgram::Run() const {
   CheckOutputsDiffer(inputs, outputs);
   std::error_code error;
   if (std::filesystem::exists(output, error) && !std::filesystem::is_regular_file(output, error)) {
-    throw regrasp::InputError("--output: " + output + " is not a file");
+    throw regrasp::InputError("--output: " + output + ": must be a file");
   }
   const std::vector<ShardFile> found = FindShards({shards.begin(), shards.end()});
   CheckOutputsWritable(outputs);

@@ -52,7 +52,7 @@ void CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object,
                      ", found " + std::to_string(plan.dimension));
   }
   if (!IsFor(plan, object) && !given.allow_object_change) {
-    throw InputError(WrongObject(plan, object, given) + "; help: --allow object-change permits it");
+    throw InputError(WrongObject(plan, object, given));
   }
   if (given.scale && *given.scale != plan.scale) {
     throw InputError("--scale " + FormatDouble(*given.scale) + " must be the scale of the plan, " +

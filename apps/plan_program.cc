@@ -182,10 +182,7 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
 void PlanProgram::CheckEnds() const {
   for (const PlanEnd& end : {start, goal}) {
     if (hand.given() && end.is_random()) {
-      throw InputError(end.option +
-                       ": with --hand expected a grasp file, or nothing to let the "
-                       "program choose a grasp, found " +
-                       end.value);
+      throw InputError("with --hand, " + end.option + " must be a grasp file, found " + end.value);
     }
     // Without a hand, a plan requires both grasps. With a hand, the planner chooses those that are
     // not given.

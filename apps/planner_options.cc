@@ -44,9 +44,8 @@ std::vector<std::string> NamesForUsers() {
 void CheckPlanner(const std::string& option, const std::string& name) {
   const std::vector<std::string> names = NamesForUsers();
   if (std::ranges::find(names, name) != names.end()) return;
-  throw CLI::ValidationError(option, "the planner \"" + name +
-                                         "\" does not exist in this version, expected one of " +
-                                         registry::PlannerNames() + SimilarWord(name, names));
+  throw CLI::ValidationError(option, "not found, expected one of " + registry::PlannerNames() +
+                                         ", found \"" + name + "\"" + SimilarWord(name, names));
 }
 
 /// Return one line per planner.

@@ -131,6 +131,13 @@ void PrintNotes(const std::string& program, const RenamedWords& renamed) {
   for (const std::string& note : renamed.notes) PrintMessage(program, "note: " + note);
 }
 
+/// Return the text of an error of the command line, reworded if an option is repeated.
+std::string ParseErrorText(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const auto repeated = text.find(": At Most 1 required");
+  return repeated == std::string::npos ? text : text.substr(0, repeated) + ": given more than once";
+}
+
 int Run(CLI::App& app, std::vector<std::string> words, const std::string& called,
         const std::function<int()>& run) {
   if (words.size() == 2 && words[0] == kHelpAs) {
@@ -153,7 +160,7 @@ int Run(CLI::App& app, std::vector<std::string> words, const std::string& called
     std::cout << text.what() << '\n';
     return kExitDone;
   } catch (const CLI::ParseError& error) {
-    throw InputError(std::string(error.what()) + " (" + app.get_name() + " --help lists all)");
+    throw InputError(ParseErrorText(error) + " (" + app.get_name() + " --help lists all)");
   }
   const int code = run();
   // Bad input prints a single line. Notes are printed only for command lines that work.

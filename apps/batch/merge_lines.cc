@@ -94,7 +94,8 @@ class ShardReader {
            std::to_string(shard_.header.range().last));
     }
     if (stream_.eof()) Fail("truncated, expected a line break");
-    if (!OutcomeOf(line, entry)) Fail("is not the result of entry " + std::to_string(entry));
+    if (!OutcomeOf(line, entry))
+      Fail("expected the result of entry " + std::to_string(entry) + ", found another line");
     return line + "\n";
   }
   void ExpectEnd() {
@@ -148,8 +149,8 @@ std::vector<ShardFile> FindShards(const std::vector<fs::path>& files) {
   const auto twice = std::ranges::adjacent_find(
       shards, {}, [](const ShardFile& shard) { return shard.header.shard.number; });
   if (twice != shards.end()) {
-    throw InputError((twice + 1)->path.string() + ": line 1: is " + ShardText(twice->header.shard) +
-                     ", and so is " + twice->path.string());
+    throw InputError((twice + 1)->path.string() + ": line 1: " + ShardText(twice->header.shard) +
+                     " must be given once, found it in " + twice->path.string() + " too");
   }
   CheckComplete(shards);
   return shards;

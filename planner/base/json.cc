@@ -8,6 +8,61 @@
 #include "planner/base/text_encoding.h"
 
 namespace regrasp {
+namespace {
+
+/// Return the text after the first `mark`, and remove both from `text`; empty if there is none.
+std::string CutAfter(std::string& text, std::string_view mark) {
+  const auto at = text.find(mark);
+  if (at == std::string::npos) return "";
+  std::string after = text.substr(at + mark.size());
+  text.erase(at);
+  return after;
+}
+
+/// Reword a token of the parser, such as "number literal".
+std::string TokenText(const std::string& token) {
+  if (token == "string literal") return "a string";
+  if (token == "number literal") return "a number";
+  if (token == "'[', '{', or a literal") return "a value";
+  // The parser expects the end of an array or object only after a value.
+  if (token == "']'") return "',' or ']'";
+  if (token == "'}'") return "',' or '}'";
+  return token;
+}
+
+/// Reword an error of the parser.
+/// @param text  "parse error at line 1, column 2: syntax error while parsing value - PROBLEM",
+///     followed by the token that was read last, or by the token that is expected, or both.
+/// @returns "line 1, column 2: not valid JSON, expected a value".
+std::string SyntaxErrorText(std::string text) {
+  std::string place = text;
+  std::string problem = CutAfter(place, " - ");
+  if (problem.empty()) return "not valid JSON: " + text;
+  CutAfter(place, ": syntax error");
+  place = CutAfter(place, "parse error at ");
+  const std::string last_read = CutAfter(problem, "; last read: ");
+  const bool is_unexpected = problem.starts_with("unexpected ");
+  std::string expected;
+  if (is_unexpected) {
+    expected = CutAfter(problem, "; expected ");
+  } else if (const auto at = last_read.rfind("'; expected "); at != std::string::npos) {
+    expected = last_read.substr(at + std::string_view("'; expected ").size());
+  }
+  const std::string start = place + ": not valid JSON";
+  if (is_unexpected) {
+    const std::string found = problem.substr(std::string_view("unexpected ").size());
+    const bool is_closed = found == "']'" || found == "'}'";
+    return start + ", expected " + (expected.empty() ? "a value" : TokenText(expected)) +
+           ", found " + (is_closed ? found : TokenText(found));
+  }
+  if (problem == "invalid literal") {
+    return start + ", expected " + (expected.empty() ? "a value" : TokenText(expected));
+  }
+  std::ranges::replace(problem, ';', ',');
+  return start + ": " + problem;
+}
+
+}  // namespace
 
 Json ParseJson(std::string_view text, const std::string& name) {
   text = TextOf(text, name);
@@ -40,8 +95,7 @@ Json ParseJson(std::string_view text, const std::string& name) {
   try {
     return Json::parse(text.begin(), text.end(), watch);
   } catch (const Json::exception& error) {
-    // Format of the message: "[json.exception.parse_error.101] parse error at line 1, column 2:
-    // syntax error …"
+    // The message begins with its identifier, such as "[json.exception.parse_error.101] ".
     std::string what = error.what();
     if (const auto bracket = what.find("] "); bracket != std::string::npos) {
       what.erase(0, bracket + 2);
@@ -49,7 +103,7 @@ Json ParseJson(std::string_view text, const std::string& name) {
     // The message quotes the last token, including invalid UTF-8 and the delete character.
     std::ranges::replace_if(
         what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
-    throw InputError(name + ": not valid JSON: " + what);
+    throw InputError(name + ": " + SyntaxErrorText(what));
   }
 }
 

@@ -92,9 +92,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
                       std::int64_t{0},
                       [](std::int64_t sum, const auto& one) { return sum + one.second; }),
       "whose simulated execution fails (" + FailuresText(best.execution_failures) + ")");
-  if (request.robustness == RobustnessLevel::kRequired) {
-    text += "; help: --robustness none omits the robustness margins";
-  }
+  if (request.robustness == RobustnessLevel::kRequired) text += "; robustness margins required";
   return text;
 }
 

@@ -186,18 +186,19 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   if (!found.gait) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
-    if (found.execution) {
-      if (!found.execution->is_cut_short) result.trial = found.execution->reason;
-      result.message += "; help: --robustness preferred writes the best plan anyway";
-    }
+    if (found.execution && !found.execution->is_cut_short) result.trial = found.execution->reason;
     if (request.deadline.IsOver()) result.message += "; time limit reached";
-    if (asked.parameters.Get<planning::SearchParameters>().explain) {
+    const bool explains = asked.parameters.Get<planning::SearchParameters>().explain;
+    if (explains) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
-    } else {
+    }
+    // A message has at most one help part, at its end.
+    if (found.execution) {
+      result.message += "; help: --robustness preferred writes the best plan anyway";
+    } else if (!explains) {
       result.message +=
-          "; help: --explain searches for a friction, an object size and a palm tilt "
-          "that help";
+          "; help: --explain searches for a friction, an object size and a palm tilt that help";
     }
     return result;
   }

@@ -128,8 +128,8 @@ void HandBuilder::AddFinger(int index) {
   }
   if (finger.joints.empty()) Fail(where, "no joint between the palm and body " + tip.body);
   if (finger.joints.size() > kMostJoints) {
-    Fail(where, "has " + std::to_string(finger.joints.size()) + " joints, limit " +
-                    std::to_string(kMostJoints));
+    Fail(where, "too many joints, expected at most " + std::to_string(kMostJoints) + ", found " +
+                    std::to_string(finger.joints.size()));
   }
   Couple(where, finger);
   SetLimits(where, finger);

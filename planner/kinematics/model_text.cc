@@ -127,10 +127,17 @@ XmlElement ParseXml(std::string_view text, const std::string& file) {
   XML_SetElementHandler(parser.get(), Parsing::Begin, Parsing::End);
   if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) ==
       XML_STATUS_ERROR) {
-    throw InputError(file + ": line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) +
-                     ": " +
-                     (parsing.too_deep ? "elements are nested too deep"
-                                       : XML_ErrorString(XML_GetErrorCode(parser.get()))));
+    const XML_Error code = XML_GetErrorCode(parser.get());
+    const std::string line =
+        file + ": line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": ";
+    if (parsing.too_deep) {
+      throw InputError(line + "elements nested too deep, expected at most " +
+                       std::to_string(kDeepest) + " levels");
+    }
+    // For a file in another format, the parser's text would only repeat "not well-formed".
+    const std::string why =
+        code == XML_ERROR_INVALID_TOKEN ? "" : std::string(" (") + XML_ErrorString(code) + ")";
+    throw InputError(line + "not valid XML" + why + ", expected an MJCF or URDF model");
   }
   return std::move(parsing.root);
 }
@@ -163,7 +170,7 @@ class Includer {
       const std::string* file = child.Find("file");
       if (file == nullptr) {
         throw InputError(child.file + ": line " + std::to_string(child.line) +
-                         ": <include> names no file");
+                         ": <include>: requires the attribute file");
       }
       XmlElement included = Read(folder_ / *file);
       Resolve(included);
@@ -178,7 +185,7 @@ class Includer {
       return other.lexically_normal() == path.lexically_normal();
     };
     if (std::ranges::any_of(files_, is_same)) {
-      throw InputError(path.string() + ": included twice, or recursively");
+      throw InputError(path.string() + ": must be included once, found twice or recursively");
     }
     files_.push_back(path);
     return ParseXml(ReadFile(path), path.string());

@@ -169,7 +169,7 @@ InputError Refused(const fs::path& path, const std::runtime_error& error) {
 /// inertia that an actuator moves in the reference configuration.
 std::vector<double> DampingsOf(const mjModel& model, const std::vector<DampingRatio>& ratios) {
   const DataPtr data(mj_makeData(&model));
-  if (!data) throw EnvironmentError("MuJoCo cannot make the data of a hand's model");
+  if (!data) throw EnvironmentError("MuJoCo cannot allocate the data of the hand's model");
   mj_kinematics(&model, data.get());
   mj_comPos(&model, data.get());
   mj_tendon(&model, data.get());
@@ -239,7 +239,7 @@ ModelText AsMjcf(const fs::path& path, const ModelText& text) {
 
 DataPtr AtRest(const mjModel& model) {
   DataPtr data(mj_makeData(&model));
-  if (!data) throw EnvironmentError("MuJoCo cannot make the data of a hand's model");
+  if (!data) throw EnvironmentError("MuJoCo cannot allocate the data of the hand's model");
   mj_kinematics(&model, data.get());
   return data;
 }

@@ -198,7 +198,7 @@ PolygonSoup SoupOf(const aiScene& scene) {
     stack.pop_back();
     const aiMatrix4x4 placement = visit.placement * visit.node->mTransformation;
     for (unsigned int m = 0; m < visit.node->mNumMeshes; ++m) {
-      if (visit.node->mMeshes[m] >= scene.mNumMeshes) throw InputError("a node without its mesh");
+      if (visit.node->mMeshes[m] >= scene.mNumMeshes) throw InputError("mesh of a node not found");
       AddMesh(*scene.mMeshes[visit.node->mMeshes[m]], placement, soup);
     }
     for (unsigned int c = visit.node->mNumChildren; c-- > 0;) {
@@ -287,7 +287,7 @@ PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& 
       throw InputError(name + ": assimp crashed or ran out of memory reading it");
   }
   auto soup = SoupFromBytes(result.bytes);
-  if (!soup) throw InputError(name + ": assimp did not read it to its end");
+  if (!soup) throw InputError(name + ": read incompletely by assimp");
   return *std::move(soup);
 }
 

@@ -202,7 +202,7 @@ void GltfDocument::ReadContainer(std::string_view bytes) {
     const std::size_t left = bytes.size() - at;
     const std::size_t size = left < kChunkHeader ? left : TakeNumber<std::uint32_t>(&bytes[at]);
     if (left < kChunkHeader || size > left - kChunkHeader) {
-      throw InputError("the file ends inside a chunk");
+      throw InputError("truncated inside a chunk");
     }
     const auto type = TakeNumber<std::uint32_t>(&bytes[at + 4]);
     const std::string_view chunk = bytes.substr(at + kChunkHeader, size);
@@ -272,7 +272,9 @@ void GltfDocument::ApplySparse(const GltfValue& sparse, const Layout& layout,
                                std::vector<double>& values) {
   Layout part = layout;
   part.count = sparse.Member("count").Count();
-  if (part.count > layout.count) sparse.Fail("replaces more elements than there are");
+  if (part.count > layout.count)
+    sparse.Fail("count: expected at most " + std::to_string(layout.count) + ", found " +
+                std::to_string(part.count));
   const GltfValue index = sparse.Member("indices");
   const long long type = index.Member("componentType").Count();
   if (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt) {
@@ -319,7 +321,7 @@ std::vector<Eigen::Vector3d> GltfDocument::Positions(long long index) {
   for (std::size_t k = 0; k < values.size(); k += 3) {
     positions.emplace_back(values[k], values[k + 1], values[k + 2]);
     if (!positions.back().allFinite()) {
-      accessor.Fail("vertex " + std::to_string(k / 3) + " is not finite");
+      accessor.Fail("vertex " + std::to_string(k / 3) + ": coordinates must be finite");
     }
   }
   return positions;

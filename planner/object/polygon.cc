@@ -216,7 +216,7 @@ void CheckPoints(const std::vector<Vector2d>& ring, int index, const std::string
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (const double x : ring[i]) {
       if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
-      fail(i, "the coordinate " + FormatDouble(x) + " is not finite or beyond " +
+      fail(i, "the coordinate " + FormatDouble(x) + " must be finite and of size at most " +
                   FormatDouble(kMaxCoordinate));
     }
   }
@@ -272,8 +272,8 @@ void CheckCrossings(const PolygonRings& rings, const std::string& name) {
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&](const EdgeBox& one, const EdgeBox& other) {
         if (++overlaps > kMaxOverlaps) {
-          throw InputError(name + ": more than " + std::to_string(kMaxOverlaps) +
-                           " pairs of edges lie so close that they would have to be checked");
+          throw InputError(name + ": too many nearby pairs of edges, expected at most " +
+                           std::to_string(kMaxOverlaps));
         }
         if (!MeetWrongly(*one.info(), *other.info())) return;
         const auto [a, b] = std::minmax({one.info(), other.info()});  // pointers into one vector

@@ -106,7 +106,7 @@ std::vector<Face> MakeFaces(const TriangleMesh& mesh, const SurfaceTopology& top
 
 double DiameterOf(const WeldedSoup& soup, const std::string& name) {
   if (soup.vertices.empty()) {
-    throw MeshError(MeshDefect::kEmpty, name + ": empty: no facet has an area of its own");
+    throw MeshError(MeshDefect::kEmpty, name + ": empty: no facet with an area above 0");
   }
   const double diameter = ComputeDiameter(soup.vertices);
   const std::string complaint = SizeComplaint(soup.vertices, diameter);

@@ -93,7 +93,8 @@ std::string Package3mf::Read(const std::string& part) {
     const auto found = std::ranges::find_if(entries, is_it);
     if (found == entries.end()) continue;
     if (std::ranges::count_if(entries, is_it) > 1) {
-      throw InputError(part + ": the archive has several files of this name");
+      throw InputError(part +
+                       ": found several times in the archive, expected one file of this name");
     }
     if (auto text = archive_.Read(*found, kMaxInputBytes)) return *std::move(text);
   }

@@ -125,7 +125,7 @@ class SceneReader {
       const GltfValue node = root_.Item("nodes", visit.node);
       const auto place = static_cast<std::size_t>(visit.node);
       if (visited_[place]) {
-        node.Fail("is a child of two nodes");
+        node.Fail("must be a child of one node, found two parents");
       }
       visited_[place] = true;
       CheckExtensions(node);
@@ -153,7 +153,8 @@ class SceneReader {
   }
 
   void AddMesh(const GltfValue& node, long long index, const Affine3d& placement) {
-    if (const auto skin = node.Find("skin")) skin->Fail("not supported, expected a mesh without");
+    if (const auto skin = node.Find("skin"))
+      skin->Fail("not supported, expected a mesh without a skin");
     const GltfValue mesh = root_.Item("meshes", index);
     CheckExtensions(mesh);
     CheckWeights(node.Find("weights") ? node : mesh);

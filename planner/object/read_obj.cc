@@ -45,7 +45,7 @@ Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
     const auto word = scanner.NextOnLine();
     if (!word) scanner.Fail(what + ": fewer than three coordinates");
     const auto value = ParseDouble(*word);
-    if (!value) scanner.Fail(what + ": " + Quoted(*word) + " is not a finite number");
+    if (!value) scanner.Fail(what + ": expected a finite number, found " + Quoted(*word));
     x = *value;
   }
   return vertex;
@@ -55,7 +55,8 @@ Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
 long long ReadCorner(TextScanner& scanner, std::string_view word, std::size_t facet) {
   const auto index = ParseInteger(word.substr(0, word.find('/')));
   if (!index) {
-    scanner.Fail("facet " + std::to_string(facet) + ": " + Quoted(word) + " is not a corner");
+    scanner.Fail("facet " + std::to_string(facet) + ": " +
+                 "expected a corner such as 7, 7/1 or 7//3, found " + Quoted(word));
   }
   return *index;
 }
@@ -113,7 +114,7 @@ PolygonSoup ReadObj(std::string_view text, const std::string& name) {
     } else if (IsOneOf(kOtherSurfaces, *statement)) {
       scanner.Fail("statement " + Quoted(*statement) + ": not supported, expected facets (\"f\")");
     } else if (!IsOneOf(kIgnored, *statement)) {
-      scanner.Fail(Quoted(*statement) + " is not a statement of OBJ");
+      scanner.Fail("expected a statement of OBJ, found " + Quoted(*statement));
     }
     scanner.SkipLine();
   }

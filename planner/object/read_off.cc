@@ -27,19 +27,21 @@ bool IsKnownKind(const std::string& kind) {
 OffHeader ReadHeader(TextScanner& scanner) {
   OffHeader header;
   const std::string kind = LowerCase(scanner.Next().value_or(""));
-  if (!IsKnownKind(kind)) scanner.Fail(Quoted(kind) + " is not the start of an OFF file");
+  if (!IsKnownKind(kind))
+    scanner.Fail("not an OFF file, expected \"off\" at its start, found " + Quoted(kind));
   header.plain = kind == "off";
   header.vertices = scanner.ReadInteger("the number of vertices");
   header.facets = scanner.ReadInteger("the number of facets");
   scanner.SkipLine();  // number of edges, which is ignored
-  if (header.vertices < 0 || header.facets < 0) scanner.Fail("a negative number of elements");
+  if (header.vertices < 0 || header.facets < 0)
+    scanner.Fail("numbers of elements must not be negative");
   return header;
 }
 
 std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, long long facet) {
   const std::string what = "facet " + std::to_string(facet);
   const long long corners = scanner.ReadInteger(what);
-  if (corners < 0) scanner.Fail(what + ": a negative number of corners");
+  if (corners < 0) scanner.Fail(what + ": the number of corners must not be negative");
   std::vector<int> indices;
   for (long long k = 0; k < corners; ++k) {
     const long long index = scanner.ReadInteger(what);

@@ -68,7 +68,7 @@ class HeaderReader {
   HeaderReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   Header Read() {
-    if (NextLine() != "ply") Fail("not the start of a PLY file");
+    if (NextLine() != "ply") Fail("not a PLY file, expected \"ply\"");
     for (;;) {
       if (header_.body >= bytes_.size()) Fail("the file ends inside the header");
       const std::string_view line = NextLine();
@@ -103,7 +103,7 @@ class HeaderReader {
       if (header_.elements.empty()) Fail("a property before the first element");
       ReadProperty(words);
     } else {
-      Fail(Quoted(keyword) + " is not a statement of a PLY header");
+      Fail("expected a statement of a PLY header, found " + Quoted(keyword));
     }
   }
 
@@ -116,7 +116,8 @@ class HeaderReader {
     } else if (format == "binary_big_endian") {
       header_.format = Header::Format::kBig;
     } else {
-      Fail(Quoted(format) + " is not a format of PLY");
+      Fail("expected format ascii, binary_little_endian or binary_big_endian, found " +
+           Quoted(format));
     }
   }
 
@@ -136,7 +137,7 @@ class HeaderReader {
   Type FindType(const std::string& word) const {
     const auto found = std::ranges::find_if(
         kTypes, [&](const TypeName& type) { return word == type.name || word == type.other_name; });
-    if (found == kTypes.end()) Fail(Quoted(word) + " is not a type of PLY");
+    if (found == kTypes.end()) Fail("expected a type of PLY, found " + Quoted(word));
     return found->type;
   }
 
@@ -169,8 +170,9 @@ class ValueReader {
       if (!word) FailAtEnd(what);
       const auto value = ParseDouble(*word);
       if (!value || (!IsFloat(type) && *value != std::floor(*value))) {
-        throw InputError(name_ + ": " + what + ": " + Quoted(*word) +
-                         " is not a finite number of its type");
+        throw InputError(name_ + ": " + what + ": expected " +
+                         (IsFloat(type) ? "a finite number" : "an integer") + ", found " +
+                         Quoted(*word));
       }
       return *value;
     }
@@ -231,8 +233,8 @@ void ReadVertex(ValueReader& values, const Element& element, long long index, Po
     const std::size_t axis = std::string_view("xyz").find(property.name);
     if (property.name.size() != 1 || axis == std::string_view::npos) continue;
     if (!std::isfinite(value)) {
-      throw InputError(name + ": " + what + ": the coordinate " + FormatDouble(value) +
-                       " is not finite");
+      throw InputError(name + ": " + what + ": coordinates must be finite, found " +
+                       FormatDouble(value));
     }
     vertex[static_cast<int>(axis)] = value;
   }
@@ -344,7 +346,7 @@ void CheckElement(const Element& element, const std::string& name) {
     }
   }
   if (element.name == "vertex" && !(Has(element, "x") && Has(element, "y") && Has(element, "z"))) {
-    throw InputError(what + " lacks x, y or z");
+    throw InputError(what + ": properties x, y and z required");
   }
   if (!IsSurface(element)) return;
   const auto indices = std::ranges::find_if(element.properties, IsVertexIndices);

@@ -61,7 +61,7 @@ std::size_t ReadSize(const std::string& word, const std::string& key, const std:
   constexpr long long kMost = 1'000'000'000;
   const auto value = ParseInteger(word);
   if (value && *value >= 1 && *value <= kMost) return static_cast<std::size_t>(*value);
-  throw InputError(name + ": " + key + ": " + Quoted(word) + " is not a count");
+  throw InputError(name + ": " + key + ": expected a count, found " + Quoted(word));
 }
 
 std::vector<PcdField> ReadFields(const PcdHeader& header, const std::string& name) {
@@ -165,13 +165,13 @@ PolygonSoup ReadXyz(std::string_view text, const std::string& name) {
     const std::string what = "point " + std::to_string(cloud.vertices.size());
     Eigen::Vector3d point;
     const auto x = ParseDouble(*word);
-    if (!x) scanner.Fail(what + ": " + Quoted(*word) + " is not a finite number");
+    if (!x) scanner.Fail(what + ": expected a finite number, found " + Quoted(*word));
     point.x() = *x;
     for (const int axis : {1, 2}) {
       const auto next = scanner.NextOnLine();
       if (!next) scanner.Fail(what + ": fewer than three coordinates");
       const auto value = ParseDouble(*next);
-      if (!value) scanner.Fail(what + ": " + Quoted(*next) + " is not a finite number");
+      if (!value) scanner.Fail(what + ": expected a finite number, found " + Quoted(*next));
       point[axis] = *value;
     }
     cloud.vertices.push_back(point);

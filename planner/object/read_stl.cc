@@ -73,8 +73,8 @@ PolygonSoup ReadBinary(std::string_view bytes, std::size_t count, const std::str
         at += sizeof value;
         x = value;
         if (std::isfinite(value)) continue;
-        throw InputError(name + ": facet " + std::to_string(f) + ": the coordinate " +
-                         FormatDouble(x) + " is not finite");
+        throw InputError(name + ": facet " + std::to_string(f) +
+                         ": coordinates must be finite, found " + FormatDouble(x));
       }
     }
     AddTriangle(soup);

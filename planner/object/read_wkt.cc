@@ -57,7 +57,7 @@ class WktReader {
       where_ = ring + ": vertex " + std::to_string(points.size());
       const double x = ReadNumber();
       points.emplace_back(x, ReadNumber());
-      if (Peek() != ',' && Peek() != ')') Fail("more than two coordinates");
+      if (Peek() != ',' && Peek() != ')') Fail("expected two coordinates, found more");
     } while (Take(','));
     where_ = ring;
     Expect(')');
@@ -71,7 +71,7 @@ class WktReader {
   double ReadNumber() {
     const std::string_view word = Word();
     const auto value = ParseDouble(word);
-    if (!value) Fail(Quoted(word) + " is not a finite number");
+    if (!value) Fail("expected a finite number, found " + Quoted(word));
     return *value;
   }
 

@@ -97,9 +97,9 @@ void CheckSelfIntersection(const TriangleMesh& mesh, const std::string& name,
                         FacetName(mesh, b) + ", which is not its neighbour there");
   };
   if (VisitCrossings(mesh, kMaxOverlaps, deadline, reject)) return;
-  throw MeshError(MeshDefect::kTooLarge,
-                  name + ": more than " + std::to_string(kMaxOverlaps) +
-                      " pairs of facets lie so close that they would have to be checked");
+  throw MeshError(
+      MeshDefect::kTooLarge,
+      name + ": too many nearby pairs of facets, expected at most " + std::to_string(kMaxOverlaps));
 }
 
 }  // namespace regrasp::object

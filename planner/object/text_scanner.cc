@@ -65,14 +65,14 @@ std::string_view TextScanner::ReadWord(const std::string& what) {
 double TextScanner::ReadDouble(const std::string& what) {
   const std::string_view word = ReadWord(what);
   const auto value = ParseDouble(word);
-  if (!value) Fail(what + ": " + Quoted(word) + " is not a finite number");
+  if (!value) Fail(what + ": expected a finite number, found " + Quoted(word));
   return *value;
 }
 
 long long TextScanner::ReadInteger(const std::string& what) {
   const std::string_view word = ReadWord(what);
   const auto value = ParseInteger(word);
-  if (!value) Fail(what + ": " + Quoted(word) + " is not an integer");
+  if (!value) Fail(what + ": expected an integer, found " + Quoted(word));
   return *value;
 }
 

@@ -47,7 +47,7 @@ void CheckCoordinates(const Eigen::Vector3d& vertex, int index, const std::strin
     if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
     throw MeshError(MeshDefect::kNotFinite, name + ": vertex " + std::to_string(index) +
                                                 ": the coordinate " + FormatDouble(x) +
-                                                " is not finite or beyond " +
+                                                " must be finite and of size at most " +
                                                 FormatDouble(kMaxCoordinate));
   }
 }

@@ -71,7 +71,7 @@ std::string XmlTag::Text(std::string_view attribute) const {
 
 double XmlTag::Number(std::string_view attribute) const {
   if (const auto value = ParseDouble(Text(attribute))) return *value;
-  throw InputError(std::string(name_) + ": " + std::string(attribute) + " is not a finite number");
+  throw InputError(std::string(name_) + ": " + std::string(attribute) + " must be a finite number");
 }
 
 void ScanXml(std::string_view text, const std::string& part,

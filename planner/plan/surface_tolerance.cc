@@ -22,10 +22,11 @@ std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& 
       (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
   const double tolerance = SurfaceTolerance(object);
   const bool single = tolerance > object::kPointTolerance * object.diameter();
-  return FormatShort(distance) + " of the object file's units off the surface, " +
-         FormatShort(distance / object.diameter()) + " of the object's diameter; up to " +
-         FormatShort(tolerance / object.diameter()) + " of it counts as on it" +
-         (single ? ", the precision of float32 so far from the origin" : "");
+  return "off the surface, expected at most " + FormatShort(tolerance / object.diameter()) +
+         " of the object's diameter" +
+         (single ? " (the precision of float32 at this distance from the origin)" : "") +
+         ", found " + FormatShort(distance / object.diameter()) + " (" + FormatShort(distance) +
+         " in the object file's unit)";
 }
 
 }  // namespace regrasp::plan

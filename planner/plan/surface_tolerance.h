@@ -24,7 +24,8 @@ inline constexpr double kLargestPointTolerance = 1e-3;
 [[nodiscard]] double SurfaceTolerance(const object::Object& object);
 
 /// Describe how far a point is off the surface, with the tolerance.
-/// Example: "0.001 of the object file's units off the surface, …".
+/// Example: "off the surface, expected at most 1e-06 of the object's diameter, found 0.0002887
+/// (0.001 in the object file's unit)".
 /// @param point  point in the object's frame and unit.
 [[nodiscard]] std::string OffSurfaceText(const object::Object& object,
                                          const Eigen::Vector3d& point);

@@ -104,10 +104,10 @@ def _table(name: str, rows: list[list[float]]) -> tuple[np.ndarray, np.ndarray, 
     poses, contacts = (table[:, :7], table[:, 7:]) if counted else (table[:, -7:], table[:, :-7])
     if not np.isfinite(poses).all():
         row = int(np.argwhere(~np.isfinite(poses))[0, 0])
-        raise InputError(f"{name}: row {row + 1 + counted}: the pose is not finite")
+        raise InputError(f"{name}: row {row + 1 + counted}: the pose must be finite")
     if np.isinf(contacts).any():
         row = int(np.argwhere(np.isinf(contacts))[0, 0])
-        raise InputError(f"{name}: row {row + 1 + counted}: a contact is infinite")
+        raise InputError(f"{name}: row {row + 1 + counted}: contacts must not be infinite")
     turns = _poses.unit(f"{name}: pose", poses[:, [6, 3, 4, 5]])
     return contacts.reshape(len(body), fingers, 6), np.hstack([poses[:, :3], turns]), counted
 

@@ -17,7 +17,7 @@ class Hand:
 
     def __init__(self, core: _regrasp.Hand):
         if not isinstance(core, _regrasp.Hand):
-            raise TypeError("use Hand.read")
+            raise TypeError("Hand cannot be constructed directly; help: use Hand.read")
         self._core = core
 
     @classmethod

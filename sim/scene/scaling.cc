@@ -85,7 +85,7 @@ void CheckBody(const object::Object& object, const ReplayOptions& options,
     CheckRange("thickness", body.thickness_m / body.diameter_m, kLeastThickness, kLargestThickness,
                "diameters", "--thickness");
   } else if (options.thickness) {
-    throw InputError("replay: a solid has no thickness to choose");
+    throw InputError("--thickness: cannot be used with a solid");
   }
   CheckRange("mass", body.mass_kg, kLeastMass, kLargestMass, "kg");
 }

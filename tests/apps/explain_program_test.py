@@ -61,9 +61,9 @@ class Explain(ProgramCase):
             self.assertEqual("(likely cause)" in said, name in causes, said)
 
     def test_an_unknown_reason_is_refused_with_the_list(self):
-        self.assert_refused(2, ['--explain: unknown failure reason "slippd", expected one of all, off-surface, ',
-                                ", slipped, ", ", unknown"], "--explain", "slippd")
-        self.assert_refused(2, '--explain: unknown failure reason "", expected one of ', "--explain", "")
+        self.assert_refused(2, ['--explain: failure reason not found, expected one of all, off-surface, ',
+                                ", slipped, ", ", unknown", ', found "slippd"'], "--explain", "slippd")
+        self.assert_refused(2, ['--explain: failure reason not found, expected one of ', ', found ""'], "--explain", "")
         self.assert_refused(2, "--explain", "--explain")
 
     def test_the_pages_of_the_documents_have_the_same_text(self):

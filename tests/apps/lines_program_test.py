@@ -427,7 +427,7 @@ class Lines(ProgramCase):
             self.plan(shard.replace("/", "of"), "--shard", shard)
         self.write("cut", self.read("2of2")[:-1])
         for words, shards in (("1 of 2 not found: 2", ["1of2"]),
-                              ("2of2: line 1: is shard 2 of 2, and so is 2of2",
+                              ("2of2: line 1: shard 2 of 2 must be given once, found it in 2of2 too",
                                ["1of2", "2of2", "2of2"]),
                               ("2of3: line 1: is shard 2 of 3, and of 2 is 1of2", ["1of2", "2of3"]),
                               ("cut: line 4: truncated", ["1of2", "cut"]),

@@ -302,7 +302,7 @@ class Validate(ProgramCase):
         self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
         self.assertEqual(done.stdout.encode(), self.read("out/plan/report.json"))
         # No plan there, and two plans.
-        self.refuse("validate: error: -: not valid JSON", plan="-", output="none")
+        self.refuse("validate: error: -: line 1, column 1: not valid JSON, expected a value, found end of input", plan="-", output="none")
         self.refuse("--plan -: requires a single plan", "--plan", "plan.json", plan="-")
 
     def test_a_failed_plan_is_on_standard_output_too_and_json_goes_to_files(self):

@@ -132,8 +132,9 @@ class GraspFilesTest(RegraspCase):
         arrays = {"points": points, "normals": self.normals}
         self.judge("--mu", "0.5", code=1, **arrays)
         line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
-        self.assertIn("grasp 3, contact 1 (the first): 1.2e-06 of the object file's units", line)
-        self.assertIn("1e-06 of it counts as on it", line)
+        self.assertIn("grasp 3, contact 1 (the first): off the surface, expected at most 1e-06 of the object's "
+                      "diameter, ", line)
+        self.assertIn("(1.2e-06 in the object file's unit)", line)
         # The index is that in the file, regardless of inactive contacts.
         active = np.ones((400, 4), bool)
         active[3, 1] = active[7, 0] = active[7, 2] = False
@@ -234,7 +235,7 @@ class GraspFilesTest(RegraspCase):
                 (["points", "(N, k, 3)", "(400, 12)"], [], {"points": self.points.reshape(400, 12)}),
                 (["normals", "(400, 4, 3)", "(400, 3, 3)"], [],
                  {"points": self.points, "normals": self.normals[:, :3]}),
-                (["points[2, 1, 0]", "not finite"], [], {"points": broken}),
+                (["points[2, 1, 0]", "must be finite, found "], [], {"points": broken}),
                 (["points", "objects"], [], {"points": np.array([None])}),
                 (["points", "U1"], [], {"points": np.array(["x"])}),
                 (["active", "(400, 4)", "(400, 3)"], [],

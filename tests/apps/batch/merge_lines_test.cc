@@ -78,7 +78,7 @@ TEST_F(MergeLinesTest, AShardThatIsMissingIsNamed) {
 TEST_F(MergeLinesTest, ShardsThatOverlapAreNamed) {
   std::vector<fs::path> files = WriteShards(4);
   files.push_back(Write("again", Text(HeaderOf({2, 4}))));
-  EXPECT_THAT(Refusal(files), AllOf(HasSubstr("again: line 1: is shard 2 of 4, and so is"),
+  EXPECT_THAT(Refusal(files), AllOf(HasSubstr("again: line 1: shard 2 of 4 must be given once"),
                                     HasSubstr("shard2of4")));
   files.back() = WriteShard(2, 3);
   EXPECT_THAT(Refusal(files), HasSubstr("shard2of3: line 1: is shard 2 of 3, and of 4 is"));
@@ -113,7 +113,7 @@ TEST_F(MergeLinesTest, AShardThatWasCutOrEditedIsNamedWithItsLine) {
   EXPECT_THAT(refusal_of(whole.substr(0, whole.size() - 1)),
               HasSubstr("shard1of2: line 6: truncated"));
   EXPECT_THAT(refusal_of(whole.substr(0, whole.size() - 4) + "\n"),
-              HasSubstr("shard1of2: line 6: is not the result of entry 5"));
+              HasSubstr("shard1of2: line 6: expected the result of entry 5"));
   EXPECT_THAT(refusal_of(whole + "\n"), HasSubstr("shard1of2: line 7: follows the last entry"));
   EXPECT_THAT(refusal_of(whole.substr(FormatHeader(HeaderOf({1, 2})).size())),
               HasSubstr("shard1of2: line 1: expected a header"));

@@ -30,19 +30,20 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       {R"({"a\nb": 1, "a\nb": 2})", R"(key "a\nb": repeated)"},
       {R"({"a": 1} x)", "not valid JSON"},
       {R"({"a": 1}{"a": 1})", "not valid JSON"},
-      {R"({"a": 1)", "not valid JSON"},
-      {R"({"a": 1,})", "not valid JSON"},
-      {R"({a: 1})", "not valid JSON"},
+      {R"({"a": 1)", ": line 1, column 8: not valid JSON, expected ',' or '}', found end of input"},
+      {R"({"a": 1,})", "expected a string, found '}'"},
+      {R"({a: 1})", ": line 1, column 2: not valid JSON, expected a string"},
+      {"# x", "bad.json: line 1, column 1: not valid JSON, expected a value"},
       {"[1e999]", "number overflow"},
       {"[-1e999]", "number overflow"},
       {"[NaN]", "not valid JSON"},
       {"[nan]", "not valid JSON"},
       {"[Infinity]", "not valid JSON"},
       {"[-inf]", "not valid JSON"},
-      {"[01]", "not valid JSON"},
+      {"[01]", "expected ',' or ']', found a number"},
       {"[0x10]", "not valid JSON"},
       {"[1,5", "not valid JSON"},
-      {"[1] // comment", "not valid JSON"},
+      {"[1] // comment", "not valid JSON, expected end of input"},
       {"\"\xff\xfe\"", "ill-formed UTF-8"},
       {"\"\xc3\"", "ill-formed UTF-8"},
       {"{\"\xed\xa0\x80\": 1}", "ill-formed UTF-8"},
@@ -63,6 +64,7 @@ TEST(ParseJson, RefusesWhatIsNotStrictJson) {
       EXPECT_THAT(error.what(), StartsWith("bad.json: "));
       EXPECT_THAT(error.what(), HasSubstr(words)) << text;
       EXPECT_THAT(error.what(), Not(HasSubstr("json.exception")));
+      EXPECT_THAT(error.what(), Not(HasSubstr("last read")));
       for (const char* c = error.what(); *c != 0; ++c) {
         // One line without terminal control characters.
         EXPECT_TRUE(*c >= 0x20 && *c < 0x7f) << text;

@@ -95,7 +95,7 @@ TEST(ScheduleTest, ReportsThatRequiredRobustnessMayPreventAPlan) {
   request.most_expanded = 60;
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
-  EXPECT_THAT(found.message, testing::HasSubstr("--robustness none omits the robustness margins"));
+  EXPECT_THAT(found.message, testing::HasSubstr("; robustness margins required"));
 }
 
 /// Fails if there is no simulation result.

@@ -148,9 +148,10 @@ TEST_F(ConvertModelTest, WhatIsPartOfTheHandIsRefusedInOneLine) {
       HasSubstr("line 2: <weld> between sites is not known to MuJoCo"));
   EXPECT_THAT(Refusal("<mujoco><worldbody>"), HasSubstr("line 1: "));
   EXPECT_THAT(Refusal("<sdf/>"), HasSubstr("expected a model as MJCF"));
-  EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"), HasSubstr("<include> names no file"));
+  EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"),
+              HasSubstr("<include>: requires the attribute file"));
   EXPECT_THAT(Refusal("<mujoco><include file=\"model.xml\"/></mujoco>"),
-              HasSubstr("included twice, or recursively"));
+              HasSubstr("must be included once, found twice or recursively"));
   EXPECT_THAT(Refusal("<mujoco><worldbody><body><joint type=\"odd\"/></body></worldbody></mujoco>"),
               HasSubstr("rejected by MuJoCo"));
 }

@@ -256,7 +256,8 @@ TEST_F(MisreadFilesTest, GltfThatWouldBeAnotherSolid) {
        [](KnownGltf& g) { g.json["bufferViews"][0]["byteLength"] = 1000; }},
       {"/asset/version: not supported, expected \"2.0\", found \"1.0\"",
        [](KnownGltf& g) { g.json["asset"]["version"] = "1.0"; }},
-      {"is a child of two nodes", [](KnownGltf& g) { g.node()["children"] = {0}; }},
+      {"must be a child of one node, found two parents",
+       [](KnownGltf& g) { g.node()["children"] = {0}; }},
       {"its scene has no triangle", [](KnownGltf& g) { g.primitive()["mode"] = 0; }},
       {"/nodes/0/rotation: expected a unit quaternion",
        [](KnownGltf& g) {
@@ -299,7 +300,7 @@ TEST_F(MisreadFilesTest, PackagesOf3mfThatAreAmbiguous) {
       "two_of_a_name.3mf",
       StoredZip(
           {{"_rels/.rels", RelationshipsTo({"/a.model"})}, {"a.model", model}, {"A.model", model}}),
-      "a.model: the archive has several files of this name");
+      "a.model: found several times in the archive, expected one file of this name");
   ExpectRefused("missing_part.3mf",
                 Package({{root, ModelOf3mf("", "<item objectid=\"1\" p:path=\"/3D/b.model\"/>")}}),
                 "the archive has no 3D/b.model");

@@ -63,11 +63,11 @@ TEST(SurfaceTolerance, IsNeverMoreThanAThousandthOfTheDiameter) {
 TEST(SurfaceTolerance, TheTextHasTheDistanceAndTheTolerance) {
   EXPECT_EQ(
       OffSurfaceText(MakeCube(), {1.001, 0, 0}),
-      "0.001 of the object file's units off the surface, 0.0002887 of the object's diameter; up "
-      "to 1e-06 of it counts as on it");
+      "off the surface, expected at most 1e-06 of the object's diameter, found 0.0002887 (0.001 in "
+      "the object file's unit)");
   const std::string far = OffSurfaceText(MakeCube(kHalf, {3, 0, 0}), {3.04, 0, 0});
-  EXPECT_THAT(far, testing::StartsWith("0.01 of the object file's units off the surface, "));
-  EXPECT_THAT(far, testing::HasSubstr("up to 1.424e-05 of it counts as on it"));
+  EXPECT_THAT(far, testing::HasSubstr("(0.01 in the object file's unit)"));
+  EXPECT_THAT(far, testing::StartsWith("off the surface, expected at most 1.424e-05 of"));
   EXPECT_THAT(far, testing::HasSubstr("float32"));
 }
 
