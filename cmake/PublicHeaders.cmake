@@ -52,9 +52,12 @@ set(regrasp_public_headers
   planner/planning/in_hand_task.h
   planner/gait/gait_planner.h
   sim/hand/check_hand.h
+  sim/actuation/condition_replays.h
+  sim/actuation/conditions.h
   sim/actuation/hand_replay.h
   sim/actuation/simulate_execution.h
   # Validation, its replays and its report.
+  sim/scene/hand_conditions.h
   sim/scene/measured.h
   sim/scene/settings.h
   sim/world/replay_observer.h

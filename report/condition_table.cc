@@ -27,7 +27,7 @@ const char* VerdictOf(const sim::ConditionResult& result) {
 
 Json ResultJson(const sim::ConditionResult& result) {
   Json json = {{"name", result.condition.name},
-               {"changes", result.condition.changes},
+               {"changes", ParseJson(result.condition.changes, result.condition.name)},
                {"verdict", VerdictOf(result)},
                {"step", IndexOrNull(result.failed)},
                {"reason", TextOrNull(plan::ReasonName(result.reason))},

@@ -66,7 +66,7 @@ Element ConditionRow(const sim::ConditionResult& result) {
   const bool failed = result.applies && !result.passed();
   Element row("tr", failed ? Attributes{{"class", "fail"}} : Attributes());
   row.Add(Element("td", {}, result.condition.name));
-  row.Add(Element("td", {}, result.condition.changes.dump()));
+  row.Add(Element("td", {}, result.condition.changes));
   row.Add(NumberCell(result.failed.valid() ? std::to_string(result.failed) : "–"));
   row.Add(NumberCell(result.applies ? LengthText(result.end_m) : "–"));
   row.Add(NumberCell(result.applies ? FormatDegrees(Degrees(result.end_rad)) : "–"));

@@ -175,8 +175,9 @@ std::vector<HandCondition> ReadConditions(std::string_view text, const std::stri
     CheckMembers(elements[i], list[i]);
     HandReplayOptions checked;
     Apply(elements[i], list[i], checked);
-    condition.changes = list[i];
-    condition.changes.erase(kNameKey);
+    Json changes = list[i];
+    changes.erase(kNameKey);
+    condition.changes = changes.dump();
   }
   return conditions;
 }
@@ -192,7 +193,8 @@ HandReplayOptions OptionsUnder(const HandCondition& condition, const HandReplayO
   options.disturbance_ratio = 0;
   options.freeze_s = 0;
   options.to_end = true;
-  Apply({condition.changes, condition.name}, condition.changes, options);
+  const Json changes = ParseJson(condition.changes, condition.name);
+  Apply({changes, condition.name}, changes, options);
   return options;
 }
 

@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/base/json.h"
 #include "sim/actuation/hand_replay.h"
 
 namespace regrasp::sim {
@@ -12,8 +11,8 @@ namespace regrasp::sim {
 /// A condition under which a plan is replayed: differences from the nominal replay.
 /// The members of `changes` are those of docs/conditions.md.
 struct HandCondition {
-  std::string name;  ///< unique name: "friction-minus-10"
-  Json changes = Json::object();
+  std::string name;            ///< unique name: "friction-minus-10"
+  std::string changes = "{}";  ///< JSON object
 };
 
 /// Read a list of conditions (docs/conditions.schema.json).

@@ -173,8 +173,9 @@ class Gait(ProgramCase):
         for i, state in ((0, start), (-1, end)):
             for planned, seen in zip(state["pose"]["position"], arrays["object"][i]):
                 self.assertAlmostEqual(planned, seen, delta=1e-3)
+        # At the start, the fingertips are 2 mm off the object.
         for planned, seen in zip(sum(start["joints"], []), arrays["joints"][0]):
-            self.assertAlmostEqual(planned, seen, delta=1e-2)
+            self.assertAlmostEqual(planned, seen, delta=5e-2)
         # Point fingers have no such file.
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                 "--trajectory", "points.npz", program="validate")

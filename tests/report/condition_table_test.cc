@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 sim::ConditionResult Result(const std::string& name, plan::Reason reason) {
   sim::ConditionResult result;
-  result.condition = {name, {{"mass_factor", 0.5}}};
+  result.condition = {name, R"({"mass_factor": 0.5})"};
   result.reason = reason;
   if (reason != plan::Reason::kNone) result.failed = plan::EntryIndex(0);
   result.reaches_end = result.ends_within = true;
