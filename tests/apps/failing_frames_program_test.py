@@ -13,7 +13,7 @@ EMPTY_CELL = (238, 240, 244)
 
 # No reason, and reasons of plans for a hand, whose frames gait_program_test.py tests.
 OF_HANDS = (None, "hand-jumps", "tip-off-contact", "joint-limit", "hand-collides",
-            "torque-limit", "coupling-violated", "tip-penetrates")
+            "torque-limit", "coupling-violated", "tip-penetrates", "not-static")
 
 
 class FailingFrames(ProgramCase):
