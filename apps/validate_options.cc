@@ -305,7 +305,7 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
              "joints=DEG (--replay hand): measured joint angles [default: 0.5]")
       ->needs(trials);
   app.add_option("--conditions", options.conditions,
-                 "Also replay the plan by the hand once under each of several conditions [default: "
+                 "Replay by the hand also under each of several conditions [default: "
                  "nominal]\n"
                  "nominal: none\n"
                  "standard: sensors, friction, mass, actuators and contact models that differ "

@@ -104,7 +104,7 @@ set(regrasp_slow_tests
   ScoreRuns.*
   Scoreboard.*
   Stillness.GraspsThatAreNot*
-  StressTest.*
+  ResistedWrenchTest.*
   SubsetForceClosureTest.IndicesBeyond*
   SwitchPoint.IsFound*
   Trials.*

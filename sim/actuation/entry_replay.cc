@@ -92,7 +92,7 @@ EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, cons
     : world_(world),
       plan_(plan),
       grasp_forces_(std::move(grasp_forces)),
-      disturbance_force_(options.disturbance_ratio),
+      disturbance_ratio_(options.disturbance_ratio),
       freeze_s_(options.freeze_s),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
@@ -425,15 +425,15 @@ void EntryReplay::Freeze() {
 }
 
 void EntryReplay::ApplyDisturbances() {
-  const double disturbance_ratio = disturbance_force_ * grasp_force_;
-  if (disturbance_ratio == 0 || monitor_.violation()) return;
+  const double disturbance_N = disturbance_ratio_ * grasp_force_;
+  if (disturbance_N == 0 || monitor_.violation()) return;
   disturbing_ = true;
   const HandControl control = control_;
   const ExecutionMonitor monitor = monitor_;
   for (const Disturbance& disturbance : DisturbanceDirections(3)) {
-    const std::string name = DisturbanceText(disturbance, disturbance_ratio, radius_);
+    const std::string name = DisturbanceText(disturbance, disturbance_N, radius_);
     monitor_.SetPhase("under " + name);
-    const grasp::Wrench wrench = DisturbanceWrench(disturbance, disturbance_ratio);
+    const grasp::Wrench wrench = DisturbanceWrench(disturbance, disturbance_N);
     const Vector3d torque = radius_ * wrench.torque_over_radius;
     monitor_.SetDisturbance({wrench.force, torque, name});
     Run(kHandDisturbanceRamp,

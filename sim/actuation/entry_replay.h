@@ -76,7 +76,7 @@ class EntryReplay {
   HandWorld& world_;
   const plan::Plan& plan_;
   std::vector<double> grasp_forces_;  ///< grasp force of the static grasp after each entry, newtons
-  double disturbance_force_;          ///< disturbance force over grasp force
+  double disturbance_ratio_;          ///< disturbance force over grasp force
   double freeze_s_;                   ///< HandReplayOptions::freeze_s
   double radius_;                     ///< half the object's diameter, metres
   double start_off_;                  ///< upper bound on the initial offset of the object's points

@@ -139,7 +139,7 @@ class GraspFilesTest(RegraspCase):
         active = np.ones((400, 4), bool)
         active[3, 1] = active[7, 0] = active[7, 2] = False
         self.judge("--mu", "0.5", code=1, active=active, **arrays)
-        self.assertIn("grasp 7, contact 3 (the first): 2.4e-06", self.said)
+        self.assertIn("grasp 7, contact 3 (the first): off the surface, ", self.said)
         # Negative control: on the surface there is no such line.
         self.judge("--mu", "0.5", code=1, points=self.points, normals=self.normals)
         self.assertNotIn("off-surface", self.said)

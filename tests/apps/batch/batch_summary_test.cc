@@ -105,8 +105,8 @@ TEST(BatchSummaryTest, TrialsThatFailAreNotHiddenByAPass) {
   PlanOutcome few = Passed("few");
   few.verdict = PlanVerdict::kFail;
   few.report->passed = false;
-  few.report->trials =
-      ReportSummary::Trials{20, 2, "18 of 20 trials with noise fail", "it is so", "more friction"};
+  few.report->trials = ReportSummary::Trials{
+      20, 2, "18 of 20 trials with noise fail", "it is so", "more friction", false};
   const BatchSummary summary{{Passed("good"), some, few}, {}};
   const std::string table = FormatSummaryTable(summary);
   EXPECT_THAT(table, HasSubstr("passes in 14 of 20 trials\n"));

@@ -49,7 +49,10 @@ class ExecutionMonitorTest : public HeldInHand {
   void ExpectDecides(double HandTolerance::*allowed, double measured, Reason reason) const {
     ASSERT_GT(measured, 0);
     HandTolerance tolerance = AnyTolerance();
-    if (allowed == &HandTolerance::at_rest) tolerance.angle_rad = 1;
+    if (allowed == &HandTolerance::at_rest) {
+      tolerance.angle_rad = 1;
+      tolerance.length_m = 1e6;
+    }
     tolerance.*allowed = (1 + kAHundredth) * measured;
     EXPECT_EQ(Replay(tolerance).reason, Reason::kNone);
     tolerance.*allowed = (1 - kAHundredth) * measured;
