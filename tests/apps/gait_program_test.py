@@ -94,7 +94,7 @@ class Gait(ProgramCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn([step["reason"] for step in report["steps"] if step["reason"]][0],
                           reasons)
-            self.assertIn("allowed" if more[0] == "--tolerance" else "verdict", done.stdout)
+            self.assertIn("limit" if more[0] == "--tolerance" else "verdict", done.stdout)
         # Replay by the hand is the default for a plan with a hand.
         _, by_points = self.validate(plan, "--hand", ring5, "--replay", "points", "--frames", "none")
         self.assertNotIn("hand", by_points["settings"])

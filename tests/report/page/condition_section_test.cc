@@ -21,7 +21,7 @@ TEST(ConditionSectionTest, EachConditionHasABarAndARow) {
   EXPECT_EQ(SectionOf(report), "");
   sim::ConditionSummary& summary = report.conditions.emplace();
   summary.results.resize(3);
-  summary.results[0].condition = {"a&b", {{"mass_factor", 0.5}}};
+  summary.results[0].condition = {"a&b", R"({"mass_factor":0.5})"};
   summary.results[0].margin = 0.5;
   summary.results[1].condition.name = "icy";
   summary.results[1].reason = plan::Reason::kSlipped;
