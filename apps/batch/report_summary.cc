@@ -38,27 +38,17 @@ void ReadSubject(const plan::JsonReader& root, ReportSummary& summary) {
   }
 }
 
-ReportSummary::Trials ReadTrials(const plan::JsonReader& trials) {
+/// Read how many of several replays pass.
+/// @param count  name of the member with their number.
+ReportSummary::Trials ReadCounts(const plan::JsonReader& json, const char* count, int least) {
   constexpr int kMost = 1'000'000'000;
   ReportSummary::Trials read;
-  read.count = trials.Member("count").Integer(1, kMost);
-  read.passed = trials.Member("passed").Integer(0, read.count);
-  read.detail = TextOrNothing(trials, "detail");
-  read.why = TextOrNothing(trials, "why");
-  read.suggested_fix = TextOrNothing(trials, "mend");
-  read.enough = trials.Member("verdict").OneOf({"pass", "fail"}) == "pass";
-  return read;
-}
-
-ReportSummary::Trials ReadConditionCounts(const plan::JsonReader& conditions) {
-  constexpr int kMost = 1'000'000;
-  ReportSummary::Trials read;
-  read.count = conditions.Member("applicable").Integer(0, kMost);
-  read.passed = conditions.Member("passed").Integer(0, read.count);
-  read.detail = TextOrNothing(conditions, "detail");
-  read.why = TextOrNothing(conditions, "why");
-  read.suggested_fix = TextOrNothing(conditions, "mend");
-  read.enough = conditions.Member("verdict").OneOf({"pass", "fail"}) == "pass";
+  read.count = json.Member(count).Integer(least, kMost);
+  read.passed = json.Member("passed").Integer(0, read.count);
+  read.detail = TextOrNothing(json, "detail");
+  read.why = TextOrNothing(json, "why");
+  read.suggested_fix = TextOrNothing(json, "mend");
+  read.enough = json.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   return read;
 }
 
@@ -120,9 +110,9 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   summary.passed = root.Member("verdict").OneOf({"pass", "fail"}) == "pass";
   ReadSubject(root, summary);
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
-  if (root.Has("trials")) summary.trials = ReadTrials(root.Member("trials"));
+  if (root.Has("trials")) summary.trials = ReadCounts(root.Member("trials"), "count", 1);
   if (root.Has("conditions")) {
-    summary.conditions = ReadConditionCounts(root.Member("conditions"));
+    summary.conditions = ReadCounts(root.Member("conditions"), "applicable", 0);
   }
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();

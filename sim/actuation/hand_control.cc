@@ -19,6 +19,8 @@ using kinematics::JointConfiguration;
 /// crossover at 3 rad/s a delay of 0.08 s costs 14° of the phase margin of 90°.
 constexpr double kPoseGain = 3;
 constexpr double kTipGain = 3;
+/// Smallest number of fingertips that determine the pose of the object.
+constexpr int kTipsOfAPose = 3;
 /// Damping of the least squares, metres, and the share of the offset from the planned joints that
 /// each step removes in its null space.
 constexpr double kDamping = 5e-3;
@@ -215,7 +217,7 @@ void HandControl::IntegrateTips() {
   for (FingerIndex f{0}; f < std::ssize(fingers_); ++f) {
     if (fingers_[f].mode == Mode::kAttached && fingers_[f].anchor.is_near) held.push_back(f);
   }
-  if (!corrects_ || std::ssize(held) < 3) return;
+  if (!corrects_ || std::ssize(held) < kTipsOfAPose) return;
   Eigen::Matrix3Xd planned(3, std::ssize(held));
   Eigen::Matrix3Xd measured(3, std::ssize(held));
   for (int i = 0; i < std::ssize(held); ++i) {
