@@ -166,18 +166,21 @@ struct PairSimplex {
   }
 };
 
-}  // namespace
-
-std::optional<NearestPair> FindNearestPoints(Points a, Points b) {
+/// @param a  anything with a function Farthest. @param first  a point of it.
+template <typename Hull>
+std::optional<NearestPair> NearestOfHulls(const Hull& a, const Vector3d& first, Points b,
+                                          double most) {
   PairSimplex simplex;
-  simplex.Add({a.front(), b.front()});
+  simplex.Add({first, b.front()});
   Vector3d nearest = simplex.differences.points[0];
   for (int i = 0; i < kMostPointIterations; ++i) {
     const double distance = nearest.norm();
     if (distance <= kMeet) return std::nullopt;
     const NearestPair support = {Farthest(a, -nearest), Farthest(b, nearest)};
+    const Vector3d difference = support.on_a - support.on_b;
+    if (nearest.dot(difference) > most * distance) break;
     // Upper bound on the square of the distance minus its final value.
-    const double gain = nearest.dot(nearest - (support.on_a - support.on_b));
+    const double gain = nearest.dot(nearest - difference);
     if (gain <= kPointsConverged * distance * distance) break;
     PairSimplex next = simplex;
     next.Add(support);
@@ -188,6 +191,90 @@ std::optional<NearestPair> FindNearestPoints(Points a, Points b) {
     nearest = nearer;
   }
   return simplex.PairAt(nearest);
+}
+
+}  // namespace
+
+std::optional<NearestPair> FindNearestPoints(Points a, Points b) {
+  return NearestOfHulls(a, a.front(), b, std::numeric_limits<double>::infinity());
+}
+
+std::optional<NearestPair> FindNearestPoints(const PointTree& a, Points b, double most) {
+  return NearestOfHulls(a, a.points().front(), b, most);
+}
+
+PointTree::PointTree(std::vector<Vector3d> points) : points_(std::move(points)) {
+  Build(0, static_cast<int>(points_.size()));
+}
+
+void PointTree::Build(int begin, int end) {
+  const std::size_t index = nodes_.size();
+  const auto first = points_.begin();
+  nodes_.push_back({begin, end, 0, BoundingSphereOf({{first + begin, first + end}, 0})});
+  if (end - begin <= kLeaf) return;
+  Eigen::AlignedBox3d box;
+  for (int i = begin; i < end; ++i) box.extend(points_[i]);
+  int axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const int middle = (begin + end) / 2;
+  std::nth_element(first + begin, first + middle, first + end,
+                   [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
+  Build(begin, middle);
+  nodes_[index].right = static_cast<int>(nodes_.size());
+  Build(middle, end);
+}
+
+void PointTree::Move(const Eigen::Isometry3d& pose) {
+  for (Vector3d& point : points_) point = pose * point;
+  for (Node& node : nodes_) node.sphere.centre = pose * node.sphere.centre;
+}
+
+namespace {
+
+/// The farthest point found so far in a direction.
+struct FarthestSearch {
+  const PointTree& tree;
+  const Vector3d& direction;
+  double length;
+  const Vector3d* best;
+  double most;
+
+  /// Return the upper bound of a node.
+  [[nodiscard]] double Bound(int node) const {
+    const BoundingSphere& sphere = tree.nodes()[node].sphere;
+    return sphere.centre.dot(direction) + sphere.radius * length;
+  }
+  void Visit(int index) {
+    const PointTree::Node& node = tree.nodes()[index];
+    if (node.right != 0) {
+      int near = index + 1;
+      int far = node.right;
+      double near_bound = Bound(near);
+      double far_bound = Bound(far);
+      if (far_bound > near_bound) {
+        std::swap(near, far);
+        std::swap(near_bound, far_bound);
+      }
+      if (near_bound > most) Visit(near);
+      if (far_bound > most) Visit(far);
+      return;
+    }
+    const Vector3d& point = Farthest(tree.PointsOf(node), direction);
+    const double reached = point.dot(direction);
+    if (reached > most) {
+      most = reached;
+      best = &point;
+    }
+  }
+};
+
+}  // namespace
+
+const Vector3d& Farthest(const PointTree& tree, const Vector3d& direction) {
+  const Vector3d* first = tree.points().data();
+  FarthestSearch search{tree, direction, direction.norm(), first, first->dot(direction)};
+  search.Visit(0);
+  return *search.best;
 }
 
 namespace {

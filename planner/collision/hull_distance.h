@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "planner/collision/convex_shape.h"
 
@@ -51,6 +53,49 @@ struct NearestPair {
 /// @returns the points; nullopt if the hulls meet, up to rounding.
 [[nodiscard]] std::optional<NearestPair> FindNearestPoints(std::span<const Eigen::Vector3d> a,
                                                            std::span<const Eigen::Vector3d> b);
+
+/// Tree of bounding spheres over points. The farthest point in a direction is found without
+/// visiting most of them.
+class PointTree {
+ public:
+  /// Points and a sphere that contains them.
+  struct Node {
+    int begin = 0;
+    int end = 0;
+    int right = 0;  ///< right child, the left one is the next node; 0: leaf
+    BoundingSphere sphere;
+  };
+
+  /// @param points  at least one point. Their order changes if there are more than kLeaf.
+  explicit PointTree(std::vector<Eigen::Vector3d> points);
+
+  void Move(const Eigen::Isometry3d& pose);
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  /// Nodes, each before its children.
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const Eigen::Vector3d> PointsOf(const Node& node) const {
+    return std::span(points_).subspan(node.begin, node.end - node.begin);
+  }
+
+  inline static constexpr int kLeaf = 8;  ///< most points of a leaf
+
+ private:
+  void Build(int begin, int end);
+
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Node> nodes_;
+};
+
+/// Return the point that is farthest in a direction.
+[[nodiscard]] const Eigen::Vector3d& Farthest(const PointTree& tree,
+                                              const Eigen::Vector3d& direction);
+
+/// Find the nearest points of two hulls as FindNearestPoints of spans.
+/// @param most  largest distance that matters. If the distance is larger, the result is any pair of
+///     points of the hulls, which is farther apart than `most`.
+[[nodiscard]] std::optional<NearestPair> FindNearestPoints(const PointTree& a,
+                                                           std::span<const Eigen::Vector3d> b,
+                                                           double most);
 
 /// Bounds on the distance of two hulls, and the direction of any length from the second hull to the
 /// first that has the lower bound.

@@ -46,6 +46,20 @@ PointPlace PlaceOf(const BallContact& surface, const Vector3d& point, double rad
   return place;
 }
 
+/// Return the triangles that points in a sphere can touch (PlaceOf).
+std::vector<int> NearSphere(const BallContact& surface, const BoundingSphere& sphere, double radius,
+                            const std::vector<int>& among) {
+  const double reach = sphere.radius + std::max(radius, kMostInside);
+  std::vector<int> near;
+  for (const int index : among) {
+    const double height = surface.normal(index).dot(sphere.centre - surface.corners(index)[0]);
+    if (std::abs(height) > reach) continue;
+    const Vector3d on_surface = surface.ClosestOn(index, sphere.centre);
+    if ((sphere.centre - on_surface).norm() <= reach) near.push_back(index);
+  }
+  return near;
+}
+
 void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
               const std::vector<int>& among, std::vector<SurfaceContact>& contacts) {
   const PointPlace place = PlaceOf(surface, point, radius, among);
@@ -60,18 +74,32 @@ void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
   }
 }
 
+/// Add the contacts of the points of a node of the shape's tree.
+void AddPoints(const BallContact& surface, const TreeShape& shape, int index,
+               const std::vector<int>& among, std::vector<SurfaceContact>& contacts) {
+  const PointTree::Node& node = shape.points.nodes()[index];
+  const std::vector<int> near = NearSphere(surface, node.sphere, shape.radius, among);
+  if (near.empty()) return;
+  if (node.right != 0) {
+    AddPoints(surface, shape, index + 1, near, contacts);
+    AddPoints(surface, shape, node.right, near, contacts);
+    return;
+  }
+  for (const Vector3d& point : shape.points.PointsOf(node)) {
+    AddPoint(surface, point, shape.radius, near, contacts);
+  }
+}
+
 /// Return a contact if the hull of the points intersects the surface. It is along the line from the
 /// surface to the centre of the shape.
-std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexShape& shape,
+std::optional<SurfaceContact> Overlap(const BallContact& surface, const TreeShape& shape,
                                       const std::vector<int>& among) {
-  const BoundingSphere around = BoundingSphereOf(shape);
+  const BoundingSphere around = BoundingSphereOf({shape.points.points(), shape.radius});
   const std::vector<NearPoint> found = surface.Find(around.centre, around.radius, among);
   if (found.empty()) return std::nullopt;
   const NearPoint& near = found.front();
-  double depth = 0;
-  for (const Vector3d& point : shape.points) {
-    depth = std::max(depth, near.outward.dot(near.point - point));
-  }
+  const Vector3d& deepest = Farthest(shape.points, -near.outward);
+  const double depth = std::max(0.0, near.outward.dot(near.point - deepest));
   return SurfaceContact{near.point, near.outward, -depth - shape.radius};
 }
 
@@ -91,20 +119,19 @@ std::vector<SurfaceContact> Thinned(std::vector<SurfaceContact> contacts) {
 
 }  // namespace
 
-std::vector<SurfaceContact> FindContacts(const BallContact& surface, const ConvexShape& shape,
+std::vector<SurfaceContact> FindContacts(const BallContact& surface, const TreeShape& shape,
                                          const std::vector<int>& among) {
   std::vector<SurfaceContact> contacts;
-  if (shape.points.size() == 1) {
-    for (const NearPoint& near : surface.Find(shape.points[0], shape.radius, among)) {
+  if (shape.points.points().size() == 1) {
+    const Vector3d& centre = shape.points.points().front();
+    for (const NearPoint& near : surface.Find(centre, shape.radius, among)) {
       if (near.distance < shape.radius) {
         contacts.push_back({near.point, near.outward, near.distance - shape.radius});
       }
     }
     return contacts;
   }
-  for (const Vector3d& point : shape.points) {
-    AddPoint(surface, point, shape.radius, among, contacts);
-  }
+  AddPoints(surface, shape, 0, among, contacts);
   double deepest = 0;
   for (const SurfaceContact& contact : contacts) deepest = std::min(deepest, contact.gap);
   // An additional contact exists only if another part of the shape is nearer than its points. If
@@ -117,19 +144,15 @@ std::vector<SurfaceContact> FindContacts(const BallContact& surface, const Conve
   return Thinned(std::move(contacts));
 }
 
-std::optional<SurfaceContact> FindNearest(const BallContact& surface, const ConvexShape& shape,
+std::optional<SurfaceContact> FindNearest(const BallContact& surface, const TreeShape& shape,
                                           double reach, const std::vector<int>& among) {
   std::optional<SurfaceContact> best;
   double nearest = reach;
   for (const int index : among) {
     const std::array<Vector3d, 3>& corners = surface.corners(index);
     const Vector3d& normal = surface.normal(index);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Vector3d& point : shape.points) {
-      lowest = std::min(lowest, normal.dot(point - corners[0]));
-    }
-    if (lowest >= nearest) continue;
-    const std::optional<NearestPair> pair = FindNearestPoints(shape.points, corners);
+    if (normal.dot(Farthest(shape.points, -normal) - corners[0]) >= nearest) continue;
+    const std::optional<NearestPair> pair = FindNearestPoints(shape.points, corners, nearest);
     if (!pair) return Overlap(surface, shape, among);
     const Vector3d between = pair->on_a - pair->on_b;
     const double distance = between.norm();

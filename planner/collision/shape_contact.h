@@ -6,6 +6,7 @@
 
 #include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
+#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 
@@ -14,6 +15,14 @@ struct SurfaceContact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< point on the surface
   Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();
   double gap = 0;  ///< metres; negative: penetration depth
+};
+
+/// Convex shape with its points in a tree, for shapes of many points.
+struct TreeShape {
+  explicit TreeShape(const ConvexShape& shape) : points(shape.points), radius(shape.radius) {}
+
+  PointTree points;
+  double radius;
 };
 
 /// Find the contacts of a convex shape with the exact surface of a solid.
@@ -33,7 +42,7 @@ struct SurfaceContact {
 ///     shape.
 /// @returns contacts, the deepest first.
 [[nodiscard]] std::vector<SurfaceContact> FindContacts(const BallContact& surface,
-                                                       const ConvexShape& shape,
+                                                       const TreeShape& shape,
                                                        const std::vector<int>& among);
 
 /// Find the nearest point of the surface to a shape.
@@ -41,7 +50,7 @@ struct SurfaceContact {
 /// and is only an estimate.
 /// @returns nullopt if the hull is farther from the surface than `reach`.
 [[nodiscard]] std::optional<SurfaceContact> FindNearest(const BallContact& surface,
-                                                        const ConvexShape& shape, double reach,
+                                                        const TreeShape& shape, double reach,
                                                         const std::vector<int>& among);
 
 inline constexpr double kMostInside = 5e-3;  ///< metres

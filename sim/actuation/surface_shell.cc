@@ -32,7 +32,8 @@ double VolumeOf(const ShellPiece& piece) {
 }
 
 /// Return a piece with the deepest apex that does not cross the surface.
-ShellPiece MakePiece(const std::array<Vector3d, 3>& triangle, const collision::SurfaceTree& surface) {
+ShellPiece MakePiece(const std::array<Vector3d, 3>& triangle,
+                     const collision::SurfaceTree& surface) {
   const auto& [a, b, c] = triangle;
   const Vector3d centroid = (a + b + c) / 3;
   const Vector3d inward = -(b - a).cross(c - a).normalized();

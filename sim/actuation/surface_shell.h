@@ -8,7 +8,8 @@
 
 namespace regrasp::sim {
 
-/// Return whether a solid is convex: it is connected by definition, and must be convex at each edge.
+/// Return whether a solid is convex: it is connected by definition, and must be convex at each
+/// edge.
 [[nodiscard]] bool IsConvex(const object::Polyhedron& solid);
 
 /// A tetrahedron: a triangle of a surface, counter-clockwise from outside, and a point below it.

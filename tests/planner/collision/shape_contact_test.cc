@@ -30,7 +30,7 @@ std::vector<int> Among(const ConvexShape& shape) {
 }
 
 std::vector<SurfaceContact> Contacts(const ConvexShape& shape) {
-  return FindContacts(Cube(), shape, Among(shape));
+  return FindContacts(Cube(), TreeShape(shape), Among(shape));
 }
 
 ConvexShape BoxShape(const Vector3d& half, const Isometry3d& pose) {
@@ -155,7 +155,8 @@ TEST(ShapeContactTest, TheNearestPlaceIsAsFarAsTheNearestTriangle) {
     pose.linear() =
         Eigen::AngleAxisd(random.Normal(), Draw(random).normalized()).toRotationMatrix();
     const ConvexShape shape = BoxShape({0.003, 0.005, 0.009}, pose);
-    const auto found = FindNearest(Cube(), shape, 0.05, Cube().Around(Vector3d::Zero(), 1));
+    const auto found =
+        FindNearest(Cube(), TreeShape(shape), 0.05, Cube().Around(Vector3d::Zero(), 1));
     double expected = 1;
     for (int triangle = 0; triangle < 12; ++triangle) {
       const auto& corners = Cube().corners(triangle);

@@ -37,7 +37,8 @@ object::Polyhedron Plate(double thickness) {
   for (int i = 0; i < 8; ++i) {
     soup.vertices.emplace_back(0.1 * (i & 1), 0.1 * (i >> 1 & 1), thickness * (i >> 2));
   }
-  soup.facets = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  soup.facets = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                 {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   return object::Polyhedron::FromSoup(soup, "plate");
 }
 
@@ -115,8 +116,8 @@ TEST_F(ShellInSceneTest, FingertipsCollideWithTheObjectAndNotWithItsHull) {
     mj_resetData(model.get(), data.get());
     mj_forward(model.get(), data.get());
     mjtNum* pose = data->qpos + model->jnt_qposadr[model->body_jntadr[object]];
-    const Vector3d at = Vector3d(data->geom_xpos + 3 * tip) - point +
-                        block.solid().mass_properties().centroid;
+    const Vector3d at =
+        Vector3d(data->geom_xpos + 3 * tip) - point + block.solid().mass_properties().centroid;
     std::copy_n(at.data(), 3, pose);
     mj_forward(model.get(), data.get());
     return std::count_if(data->contact, data->contact + data->ncon, [&](const mjContact& contact) {
