@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "report/report_json.h"

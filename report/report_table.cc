@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/base/limit_text.h"
+#include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "report/junit.h"
 #include "report/report_json.h"

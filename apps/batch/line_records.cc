@@ -6,7 +6,6 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/text_encoding.h"
 #include "planner/plan/json_reader.h"
 
 namespace regrasp::apps {

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/text_encoding.h"
 #include "planner/object/limited_child.h"
 #include "planner/object/read_3mf.h"
 #include "planner/object/read_gltf.h"

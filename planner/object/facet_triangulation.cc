@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/object/mesh_defect.h"
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "planner/base/error.h"
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/object/given_points.h"
 #include "planner/plan/check_step.h"

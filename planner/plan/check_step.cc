@@ -4,7 +4,6 @@
 #include <numbers>
 #include <set>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"

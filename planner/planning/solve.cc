@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/base/limit_text.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"

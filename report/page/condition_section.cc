@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "report/condition_table.h"
 #include "report/page/step_table.h"

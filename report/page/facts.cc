@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "report/page/step_table.h"
 #include "report/report_table.h"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "report/page/step_plot.h"
 #include "report/page/step_table.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/grasp_forces.h"

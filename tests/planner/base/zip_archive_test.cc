@@ -1,4 +1,4 @@
-#include "planner/base/npz.h"
+#include "planner/base/zip_archive.h"
 
 #include <gtest/gtest.h>
 
