@@ -24,7 +24,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/object/reading.h"
+#include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/figures/contact_space_figure.h"

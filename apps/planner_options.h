@@ -10,7 +10,6 @@
 #include "apps/repair_options.h"
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
-#include "planner/object/reading.h"
 #include "planner/plan/plan.h"
 #include "planner/planning/planner.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "planner/object/reading.h"
+#include "planner/object/object.h"
 
 namespace regrasp::apps {
 

@@ -9,15 +9,12 @@ set(regrasp_public_headers
   planner/base/index.h
   planner/base/random.h
   # Objects.
-  planner/object/mass_properties.h
-  planner/object/mesh_defect.h
+  planner/object/wrench_frame.h
+  planner/object/polygon_soup.h
   planner/object/object.h
   planner/object/polygon.h
-  planner/object/polygon_soup.h
   planner/object/polyhedron.h
-  planner/object/reading.h
   planner/object/triangle_mesh.h
-  planner/object/wrench_frame.h
   # Grasps.
   planner/grasp/contact.h
   planner/grasp/finger_friction.h

@@ -8,7 +8,6 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/path_force_closure.h"
-#include "planner/object/patch_normal.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/plan_reach.h"

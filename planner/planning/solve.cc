@@ -13,7 +13,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/sampling/draw_grasp.h"
 

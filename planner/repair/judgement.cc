@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "planner/base/number.h"
-#include "planner/object/mesh_defect.h"
 #include "planner/object/mesh_survey.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "planner/repair/repair.h"
 

@@ -5,7 +5,6 @@
 
 #include "planner/object/object.h"
 #include "planner/object/polygon_soup.h"
-#include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
 #include "planner/repair/stages.h"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "planner/object/limited_child.h"
-#include "planner/object/soup_bytes.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/stages.h"
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "planner/object/body_measures.h"
-#include "planner/object/face_joining.h"
+#include "planner/object/facet_triangulation.h"
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/stages.h"
 #include "planner/repair/surface_distance.h"

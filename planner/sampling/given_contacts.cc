@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/base/random.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "planner/sampling/contact_points.h"
 #include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"

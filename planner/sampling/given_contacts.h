@@ -11,7 +11,7 @@
 
 namespace regrasp::sampling {
 
-/// Return the contact at a point of a point file (object/given_points.h).
+/// Return the contact at a point of a point file (object/read_object.h).
 /// The contact is on a face at the point. It has the smallest allowed distance from the face's
 /// border (SurfaceSampler::kFromBorder), so that its normal is defined. Among the faces at the
 /// point that accept fingers and are not rough there (Object::IsRough), it is on the one with the

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "planner/base/error.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/read_object.h"
 #include "planner/repair/filled_marks.h"
 #include "planner/sampling/surface_sampler.h"

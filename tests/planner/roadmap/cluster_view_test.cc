@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/reading.h"
 #include "planner/roadmap/build_roadmap.h"
 #include "tests/fixtures/project_path.h"
 

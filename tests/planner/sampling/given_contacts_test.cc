@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/solids.h"

@@ -1,4 +1,4 @@
-#include "planner/object/box_tree.h"
+#include "planner/object/face_tree.h"
 
 #include <gtest/gtest.h>
 

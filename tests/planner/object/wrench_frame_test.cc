@@ -1,4 +1,4 @@
-#include "planner/object/mass_properties.h"
+#include "planner/object/wrench_frame.h"
 
 #include <gtest/gtest.h>
 

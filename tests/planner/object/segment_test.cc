@@ -1,4 +1,4 @@
-#include "planner/object/segment_coverage.h"
+#include "planner/object/segment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/object/reading.h"
+#include "planner/object/object.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

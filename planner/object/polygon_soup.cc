@@ -1,4 +1,4 @@
-#include "planner/object/soup_bytes.h"
+#include "planner/object/polygon_soup.h"
 
 #include <cstdint>
 #include <cstring>
