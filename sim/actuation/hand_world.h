@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/collision/ball_contact.h"
+#include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"

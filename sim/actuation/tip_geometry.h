@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "planner/base/index.h"
-#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
