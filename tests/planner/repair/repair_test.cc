@@ -13,7 +13,7 @@
 #include "planner/base/error.h"
 #include "planner/object/polygon_soup.h"
 #include "planner/object/read_object.h"
-#include "planner/repair/filled_marks.h"
+#include "planner/repair/comparison.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/soups.h"
 

@@ -1,4 +1,4 @@
-#include "planner/repair/surface_distance.h"
+#include "planner/repair/cgal_mesh.h"
 
 #include <gtest/gtest.h>
 
