@@ -22,7 +22,7 @@
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
 #include "planner/base/zip_archive.h"
-#include "planner/grasp/judge_grasps.h"
+#include "planner/grasp/force_closure.h"
 #include "planner/plan/projection.h"
 #include "planner/plan/surface_tolerance.h"
 #include "sim/validation/validation.h"

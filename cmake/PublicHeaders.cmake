@@ -17,10 +17,9 @@ set(regrasp_public_headers
   planner/object/triangle_mesh.h
   # Grasps.
   planner/grasp/contact.h
-  planner/grasp/finger_friction.h
+  planner/grasp/required_friction_angle.h
   planner/grasp/force_closure.h
   planner/grasp/quality.h
-  planner/grasp/required_friction_angle.h
   # Plans: reading, writing, the analytic check.
   planner/motion/motion_segment.h
   planner/certificate/force_proof.h

@@ -9,7 +9,7 @@
 
 #include "planner/criteria/grasp_criteria.h"
 #include "planner/grasp/contact.h"
-#include "planner/grasp/quality_filter.h"
+#include "planner/grasp/quality_rays.h"
 #include "planner/grasp/unit_contacts.h"
 #include "planner/hand/hand.h"
 #include "planner/object/object.h"

@@ -4,7 +4,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/grasp/largest_load.h"
+#include "planner/grasp/grasp_forces.h"
 #include "sim/control/motions.h"
 #include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"

@@ -13,7 +13,7 @@ namespace regrasp::sim {
 /// their own.
 /// The grasps of an entry are the initial grasp, or those before and after a finger switch, or
 /// those at the waypoints of a sliding step. The criterion is that of
-/// planner/grasp/finger_friction.h; among equal fingers, the first.
+/// planner/grasp/required_friction_angle.h; among equal fingers, the first.
 class WeakestFingers {
  public:
   /// @param located  plan with contacts on the surface, in the unit of `frame`; must outlive this

@@ -6,7 +6,6 @@
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/grasp_forces.h"
-#include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
 #include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"

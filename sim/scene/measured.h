@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "planner/grasp/finger_friction.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/reason.h"
 
 namespace regrasp::sim {
@@ -46,7 +46,7 @@ struct ResistedWrench {
   /// Largest value that the object withstands in the replay, by bisection; 0 if it withstands none.
   double replay = 0;
   /// Largest value that forces inside the cones balance at the planned contacts with the same grasp
-  /// force (planner/grasp/largest_load.h); 0 if they do not balance the weight.
+  /// force (planner/grasp/grasp_forces.h); 0 if they do not balance the weight.
   double analysis = 0;
 };
 

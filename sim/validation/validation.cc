@@ -8,7 +8,7 @@
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
-#include "planner/grasp/bound_quality.h"
+#include "planner/grasp/quality.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/certificate/force_proof.h"
-#include "planner/grasp/finger_friction.h"
 #include "planner/grasp/quality.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/plan/check.h"
 #include "planner/plan/contact_region.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/error.h"
-#include "planner/grasp/largest_load.h"
+#include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "sim/measure/disturbance.h"
 #include "sim/world/motion_monitor.h"

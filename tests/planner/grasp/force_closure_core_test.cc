@@ -1,4 +1,4 @@
-#include "planner/grasp/friction_search.h"
+#include "planner/grasp/force_closure_core.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
-#include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "tests/fixtures/random_grasps.h"
 

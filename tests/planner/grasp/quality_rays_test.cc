@@ -1,4 +1,4 @@
-#include "planner/grasp/quality_filter.h"
+#include "planner/grasp/quality_rays.h"
 
 #include <gtest/gtest.h>
 
