@@ -15,7 +15,7 @@
 #include "planner/grasp/unit_contacts.h"
 #include "planner/object/read_object.h"
 #include "planner/plan/plan_reach.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::planning {
 

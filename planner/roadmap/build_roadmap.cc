@@ -8,7 +8,6 @@
 #include "planner/criteria/reach.h"
 #include "planner/object/polyhedron.h"
 #include "planner/sampling/contact_points.h"
-#include "planner/sampling/given_contacts.h"
 
 namespace regrasp::roadmap {
 

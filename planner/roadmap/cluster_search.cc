@@ -10,7 +10,7 @@
 #include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/contact_chain.h"
 #include "planner/roadmap/contact_point_search.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::roadmap {
 

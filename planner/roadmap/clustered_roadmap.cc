@@ -6,7 +6,6 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/criteria/reach.h"
 #include "planner/sampling/contact_points.h"
-#include "planner/sampling/given_contacts.h"
 
 namespace regrasp::roadmap {
 

@@ -27,7 +27,7 @@ struct ClusteredRoadmapOptions {
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   double finger_radius = 0;  ///< radius of the fingers; 0: points (reach.h)
   Deadline deadline = {};    ///< deadline of the construction, which then throws TimeUp
-  /// Points to which contact points are restricted (sampling/given_contacts.h); null for none.
+  /// Points to which contact points are restricted (sampling/contact_points.h); null for none.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
 };
 

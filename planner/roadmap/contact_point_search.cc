@@ -11,7 +11,7 @@
 #include "planner/base/random.h"
 #include "planner/planning/candidate_sequence.h"
 #include "planner/roadmap/build_roadmap.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/search/switching_graph.h"
 
 namespace regrasp::roadmap {

@@ -15,7 +15,6 @@
 #include "planner/roadmap/cluster_search.h"
 #include "planner/roadmap/contact_point_search.h"
 #include "planner/roadmap/roadmap.h"
-#include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::roadmap {

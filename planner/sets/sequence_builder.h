@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/sets/finger_sequence.h"
 #include "planner/sets/grasp_set_model.h"
 

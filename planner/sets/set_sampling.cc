@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::sets {
 

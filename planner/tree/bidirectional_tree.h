@@ -13,7 +13,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/face_align.h"
 #include "planner/tree/grasp_path.h"

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/motion/contact_motion.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/tree/surface_route.h"

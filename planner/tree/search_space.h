@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "planner/base/deadline.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 
 namespace regrasp::tree {
 

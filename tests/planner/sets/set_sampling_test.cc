@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/number.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/edge_grasp.h"
 #include "tests/fixtures/polygons.h"
 
