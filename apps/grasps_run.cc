@@ -24,7 +24,6 @@
 #include "planner/base/zip_archive.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/plan/projection.h"
-#include "planner/plan/surface_tolerance.h"
 #include "sim/validation/validation.h"
 
 namespace regrasp::apps {

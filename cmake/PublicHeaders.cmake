@@ -29,7 +29,6 @@ set(regrasp_public_headers
   planner/plan/plan.h
   planner/plan/plan_io.h
   planner/plan/reason.h
-  planner/plan/snapshot.h
   planner/plan/contact_region.h
   # Planning: a request, a result, and the planners by their names.
   planner/criteria/grasp_criteria.h

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/figures/figure_page.h"
 #include "render/figures/finger_marker.h"
 #include "render/figures/plan_figure.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/object/object.h"
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "planner/roadmap/cluster_view.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/fault_marks.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "planner/plan/projection.h"
-#include "planner/plan/snapshot.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/overview_image.h"
 #include "render/frames/replay_animation.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "sim/scene/engine.h"
 #include "sim/scene/scene.h"
 #include "sim/world/motion_monitor.h"

@@ -1,4 +1,4 @@
-#include "planner/plan/surface_tolerance.h"
+#include "planner/plan/projection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "planner/plan/projection.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::plan {
