@@ -41,9 +41,8 @@ set(regrasp_public_headers
   planner/sets/set_parameters.h
   # Hands: a hand's file, a task for it, the planner, the replay by its actuators.
   planner/collision/convex_shape.h
-  planner/kinematics/hand_description.h
-  planner/kinematics/hand_file.h
   planner/kinematics/hand_model.h
+  planner/kinematics/hand_file.h
   planner/planning/in_hand_task.h
   planner/gait/gait_planner.h
   sim/hand/check_hand.h

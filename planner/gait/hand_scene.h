@@ -13,7 +13,6 @@
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
-#include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 
