@@ -16,7 +16,6 @@
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/sequence_builder.h"
 #include "planner/sets/set_graph.h"
-#include "planner/sets/set_sampling.h"
 
 namespace regrasp::sets {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/sets/contour/boundary.h"
+#include "planner/sets/contour/contour_graph.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
 #include "render/figures/figure_format.h"

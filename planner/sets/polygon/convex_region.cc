@@ -1,4 +1,4 @@
-#include "planner/sets/polygon/filtered_region.h"
+#include "planner/sets/polygon/convex_region.h"
 
 namespace regrasp::polygon {
 

@@ -1,4 +1,4 @@
-#include "planner/sets/finger_sequence.h"
+#include "planner/sets/sequence_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/sets/set_sampling.h"
+#include "planner/sets/set_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
