@@ -15,7 +15,7 @@
 #include "planner/object/object.h"
 #include "planner/object/read_object.h"
 #include "planner/registry/registry.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "planner/sets/set_parameters.h"
 #include "planner/tree/tree_planner.h"

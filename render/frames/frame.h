@@ -7,7 +7,7 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/projection.h"
-#include "planner/roadmap/cluster_view.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/finger_glyph.h"

@@ -1,4 +1,4 @@
-#include "planner/roadmap/cluster_view.h"
+#include "planner/roadmap/clustered_roadmap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include "planner/base/number.h"
 #include "planner/object/object.h"
 #include "planner/object/polyhedron.h"
-#include "planner/roadmap/build_roadmap.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::roadmap {
