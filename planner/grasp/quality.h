@@ -55,7 +55,7 @@ inline constexpr std::int64_t kMostQualityFacets = 300'000;
 /// length, and a gap must be much larger.
 inline constexpr double kLeastRelativeGap = 1e-5;
 
-/// Bound the grasp quality ε (quality.h) about a hundred times faster than ComputeQuality.
+/// Bound the grasp quality ε (ComputeQuality) about a hundred times faster than ComputeQuality.
 ///
 /// One hull of wrenches grows at its facet nearest to the origin (GrowingHull). The distance of
 /// that facet is a lower bound on ε. The support of the whole wrench set along the facet's normal

@@ -83,7 +83,7 @@ struct ModelText {
 /// Read an MJCF or URDF model and convert it to the linked MuJoCo version.
 /// The includes of an MJCF model are read, too.
 ///
-/// Elements that affect the hand are converted (model_text.h, model_text.h). Elements that
+/// Elements that affect the hand are converted (ConvertMjcf, ConvertUrdf). Elements that
 /// affect neither its motion nor its visuals are removed. All conversions are listed. A model that
 /// requires no conversion keeps its text except for the layout.
 /// @throws InputError  if the file is not XML, is neither MJCF nor URDF, includes itself, or has an
@@ -158,7 +158,7 @@ void DropMissingVisuals(const MeshPaths& paths, ModelText& text);
 ///
 /// Attributes of default classes are included. All other unknown attributes, sensors, plugins and
 /// solver settings are removed. Keyframes lose their controls if an actuator is removed. Visual
-/// geoms whose mesh file is missing or empty are removed (model_text.h).
+/// geoms whose mesh file is missing or empty are removed (DropMissingVisuals).
 /// @throws InputError  if the model has replicate, attach or flexcomp, which are part of the hand
 ///     and cannot be converted; or if a mesh that a geom requires is missing or empty.
 void ConvertMjcf(const std::filesystem::path& folder, ModelText& text);

@@ -11,7 +11,6 @@
 #include "planner/motion/find_motion_proof.h"
 #include "planner/plan/check_step.h"
 #include "planner/tree/bidirectional_tree.h"
-#include "planner/tree/grasp_path.h"
 #include "planner/tree/surface_route.h"
 #include "tests/planner/tree/search_cases.h"
 
