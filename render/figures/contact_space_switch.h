@@ -10,7 +10,6 @@
 #include "planner/sets/contour/contour_graph.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 
 namespace regrasp::render {

@@ -13,7 +13,7 @@
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
-#include "render/picture/label_layout.h"
+#include "render/picture/caption.h"
 
 namespace regrasp::render {
 

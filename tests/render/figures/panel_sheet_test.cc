@@ -1,10 +1,9 @@
-#include "render/figures/finger_marker.h"
+#include "render/figures/panel_sheet.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 
