@@ -27,7 +27,7 @@
 #include "planner/object/body_measures.h"
 #include "planner/plan/plan_io.h"
 #include "report/failure.h"
-#include "report/junit.h"
+#include "report/markup.h"
 #include "report/page/report_page.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"

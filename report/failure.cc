@@ -7,7 +7,6 @@
 #include "planner/object/object.h"
 #include "planner/object/read_object.h"
 #include "planner/plan/projection.h"
-#include "report/condition_table.h"
 #include "report/report_table.h"
 
 namespace regrasp::report {

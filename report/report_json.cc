@@ -9,7 +9,6 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report_table.h"
 #include "sim/measure/disturbance.h"

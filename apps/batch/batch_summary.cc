@@ -4,7 +4,7 @@
 
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
-#include "report/junit.h"
+#include "report/markup.h"
 #include "report/report_json.h"
 
 namespace regrasp::apps {

@@ -7,11 +7,8 @@
 
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
-#include "report/page/condition_section.h"
 #include "report/page/facts.h"
-#include "report/page/findings.h"
 #include "report/page/html_page.h"
 #include "report/page/step_plot.h"
 #include "report/page/step_table.h"

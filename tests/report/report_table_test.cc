@@ -1,13 +1,12 @@
-#include "report/condition_table.h"
+#include "report/report_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "planner/base/number.h"
 #include "report/failure.h"
-#include "report/junit.h"
+#include "report/markup.h"
 #include "report/report_json.h"
-#include "report/report_table.h"
 
 namespace regrasp::report {
 namespace condition_table_test {
