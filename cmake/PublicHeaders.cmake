@@ -51,9 +51,8 @@ set(regrasp_public_headers
   sim/actuation/hand_replay.h
   sim/actuation/simulate_execution.h
   # Validation, its replays and its report.
-  sim/scene/hand_conditions.h
-  sim/scene/measured.h
   sim/scene/settings.h
+  sim/scene/measured.h
   sim/world/replay_observer.h
   sim/replay/disagreement.h
   sim/replay/replay.h

@@ -13,7 +13,6 @@
 #include "report/report.h"
 #include "report/report_json.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::report {

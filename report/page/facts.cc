@@ -11,7 +11,6 @@
 #include "report/page/step_table.h"
 #include "report/report_table.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/world/motion_monitor.h"
 
 namespace regrasp::report {

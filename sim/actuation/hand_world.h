@@ -17,7 +17,6 @@
 #include "sim/actuation/hand_links.h"
 #include "sim/actuation/joint_couplings.h"
 #include "sim/scene/engine.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;

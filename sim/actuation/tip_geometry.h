@@ -13,7 +13,6 @@
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;

@@ -8,7 +8,6 @@
 #include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/quality.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 #include "sim/world/motion_monitor.h"
 

@@ -13,7 +13,7 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "sim/actuation/tip_geometry.h"
-#include "sim/measure/weakest_finger.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::validation {

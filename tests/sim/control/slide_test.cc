@@ -1,4 +1,4 @@
-#include "sim/control/motions.h"
+#include "sim/control/slide.h"
 
 #include <gtest/gtest.h>
 
