@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/entry_names.h"
 #include "apps/help.h"
 #include "apps/list_option.h"
 #include "apps/options.h"

@@ -4,7 +4,7 @@
 
 #include "apps/help.h"
 #include "apps/list_option.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"

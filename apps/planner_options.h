@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/options.h"
-#include "apps/repair_options.h"
+#include "apps/repair_module.h"
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"

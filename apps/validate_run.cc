@@ -16,8 +16,6 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/run_date.h"
-#include "apps/run_digest.h"
 #include "apps/validate_task.h"
 #include "apps/verify_report.h"
 #include "planner/base/deadline.h"

@@ -4,13 +4,13 @@
 #include <memory>
 #include <system_error>
 
+#include "apps/earlier_run.h"
 #include "apps/frame_files.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"
-#include "apps/run_digest.h"
 #include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"

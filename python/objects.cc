@@ -18,7 +18,6 @@
 #include "planner/object/read_object.h"
 #include "planner/repair/repair.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 
 namespace regrasp::python {
 

@@ -21,7 +21,6 @@
 #include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 #include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::python {

@@ -132,8 +132,7 @@ constexpr double kTolerance = 1e-9;
 /// Difference of friction angles below which fingers count as equally weak, radians.
 constexpr double kEqual = 1e-7;
 
-/// Upper bound on the distance between bounds on required friction angles
-/// (required_friction_angle.h).
+/// Upper bound on the distance between bounds on required friction angles.
 constexpr double kBoundsApart = 1e-6;
 
 /// Substitute for the friction angle if no angle is enough.

@@ -1,4 +1,4 @@
-#include "python/interrupt.h"
+#include "python/binding.h"
 
 #include <algorithm>
 #include <string>

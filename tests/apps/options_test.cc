@@ -1,4 +1,4 @@
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 
 #include <gtest/gtest.h>
 
