@@ -21,7 +21,7 @@
 
 namespace regrasp::planning {
 
-/// Half-angle φ of the cones of concurrent grasps; θ is the friction angle.
+/// Friction angle φ of the cones of concurrent grasps; θ is the friction angle of the request.
 enum class Spanning {
   kAdaptive,  ///< φ = min(θ, φ*), φ* the supremum of angles for which the normals φ-positively span
   kUniform,  ///< φ = θ if the normals θ-positively span; otherwise there is no set

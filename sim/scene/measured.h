@@ -10,7 +10,7 @@ namespace regrasp::sim {
 
 // Measurements of a replay as plain values, which reports contain.
 
-/// Shares of the travel of a sliding step, summed over its contacts, by the way of execution. They
+/// Shares of the travel of a sliding step, summed over its contacts, by the kind of motion. They
 /// sum to 1. If the step only turns normals, they are shares of the subpaths between waypoints.
 struct AlignShares {
   double imitated = 0;
