@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/scene/hand_conditions.h"
+#include "sim/scene/settings.h"
 
 struct mjModel_;
 struct mjData_;

@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "planner/base/index.h"
-#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;

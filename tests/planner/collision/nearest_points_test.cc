@@ -4,7 +4,6 @@
 
 #include "planner/base/random.h"
 #include "planner/collision/convex_shape.h"
-#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 namespace nearest_points_test {
