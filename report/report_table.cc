@@ -12,6 +12,7 @@
 #include "planner/grasp/quality.h"
 #include "report/condition_table.h"
 #include "report/failure.h"
+#include "report/goal_table.h"
 #include "report/report.h"
 #include "sim/measure/disturbance.h"
 #include "sim/measure/weakest_finger.h"
@@ -353,8 +354,8 @@ std::string FormatReportTable(const Report& report) {
   if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
-  return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
-         FormatEngines(report) + FormatUndecided(report) +
+  return FormatFailure(report) + FormatRows(rows) + FormatGoalTable(report) + FormatBody(report) +
+         FormatCauses(report) + FormatEngines(report) + FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
          FormatResistedWrenchTable(report) + FormatTrials(report) + FormatConditionTable(report) +
          FormatVerdict(report);
