@@ -363,6 +363,10 @@ std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& trac
   const HandSetup& setup = terms.setup;
   std::optional<IdleConfigurations> idle_configurations =
       FindIdleConfigurations(setup, track, random_);
+  // Idle fingers of a given start state may have to move out of the way on the track.
+  if (!idle_configurations && !request_.start_joints.empty()) {
+    idle_configurations = FindIdleConfigurations(setup, track.InSteps(0), random_);
+  }
   if (!idle_configurations) return nullptr;
   const bool is_turn = !request_.goal && track.steps() > 0;
   // Contacts roll, and edges are simulated, in the direction of time only.
