@@ -26,6 +26,7 @@ set(regrasp_public_headers
   planner/plan/check.h
   planner/plan/grasp_io.h
   planner/plan/projection.h
+  planner/plan/goal_set.h
   planner/plan/plan.h
   planner/plan/plan_io.h
   planner/plan/reason.h

@@ -10,6 +10,7 @@
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/failure.h"
+#include "report/goal_table.h"
 #include "report/report.h"
 #include "report/report_json.h"
 #include "sim/measure/disturbance.h"
@@ -351,8 +352,8 @@ std::string FormatReportTable(const Report& report) {
   if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
-  return FormatFailure(report) + FormatRows(rows) + FormatBody(report) + FormatCauses(report) +
-         FormatEngines(report) + FormatUndecided(report) +
+  return FormatFailure(report) + FormatRows(rows) + FormatGoalTable(report) + FormatBody(report) +
+         FormatCauses(report) + FormatEngines(report) + FormatUndecided(report) +
          (report.grasp ? FormatGraspLines(report) : FormatWeakestOfPlan(report)) +
          FormatResistedWrenchTable(report) + FormatTrials(report) + FormatConditionTable(report) +
          FormatVerdict(report);

@@ -150,6 +150,9 @@ class ReachMap {
   ///     contact.
   [[nodiscard]] const JointConfiguration* Find(FingerIndex finger, int point, int node);
 
+  /// Set the joint configuration of a finger at a contact and a grid node.
+  void Set(FingerIndex finger, int point, int node, const JointConfiguration& configuration);
+
   /// Return whether a finger keeps its contact between adjacent grid nodes.
   /// The joint configuration must be continuous.
   /// @param node  grid node at which the finger reaches the contact.

@@ -34,6 +34,15 @@ std::vector<double> JointAngles(const Finger& finger, const JointConfiguration& 
   return angles;
 }
 
+JointConfiguration ConfigurationAt(const Finger& finger, const std::vector<double>& angles) {
+  JointConfiguration configuration(finger.drives);
+  for (std::size_t i = 0; i < finger.joints.size(); ++i) {
+    const Joint& joint = finger.joints[i];
+    if (!joint.follows) configuration[joint.drive] = DriveAngle(joint, angles[i]);
+  }
+  return configuration;
+}
+
 JointFrames FramesOf(const Finger& finger, const JointConfiguration& configuration) {
   JointFrames frames;
   frames.reserve(finger.joints.size());

@@ -27,6 +27,11 @@ using JointFrames = std::vector<Eigen::Isometry3d>;
 [[nodiscard]] std::vector<double> JointAngles(const Finger& finger,
                                               const JointConfiguration& configuration);
 
+/// Return the joint configuration in which the independent joints have these angles.
+/// @param angles  angles of all joints, as JointAngles returns them, radians.
+[[nodiscard]] JointConfiguration ConfigurationAt(const Finger& finger,
+                                                 const std::vector<double>& angles);
+
 [[nodiscard]] JointFrames FramesOf(const Finger& finger, const JointConfiguration& configuration);
 
 /// Position of a fingertip and its Jacobian.

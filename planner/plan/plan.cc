@@ -119,6 +119,14 @@ HandState StateBetween(const HandState& from, const HandState& to, double share)
   return state;
 }
 
+HandState StateAfter(const HandState& before, const Step& step) {
+  const std::vector<const HandPath*> paths = PathsOf(step);
+  for (auto path = paths.rbegin(); path != paths.rend(); ++path) {
+    if (!(*path)->empty()) return (*path)->back();
+  }
+  return before;
+}
+
 std::vector<const HandPath*> PathsOf(const Step& step) {
   std::vector<const HandPath*> paths;
   if (const auto* move = std::get_if<Move>(&step)) paths.push_back(&move->path);

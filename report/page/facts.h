@@ -40,4 +40,7 @@ class FactList {
 /// table. The length of a bar is the tolerance margin. Empty without conditions.
 [[nodiscard]] std::vector<Element> MakeConditionSection(const Report& report);
 
+/// Return the section on the goals of a plan for a hand; empty without goals.
+[[nodiscard]] std::vector<Element> MakeGoalSection(const Report& report);
+
 }  // namespace regrasp::report

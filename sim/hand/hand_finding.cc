@@ -167,6 +167,22 @@ HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
   return finding;
 }
 
+HandFinding GoalSetMissed(const HandState& now, const plan::GoalMark& goal) {
+  const plan::GoalDistance off = goal.set.Distance(now.pose);
+  std::string far = off.length > 0 ? FormatLength(off.length) : "";
+  if (off.angle > 0) far += (far.empty() ? "" : " and ") + DegreesText(off.angle);
+  HandFinding finding{
+      Reason::kGoalNotReached,
+      "the object is " + far + " outside " +
+          (goal.name.empty() ? "its goal set" : "the set of goal \"" + goal.name + "\""),
+      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = now;
+  place.pose = goal.set.Nearest(now.pose);
+  place.number = far;
+  return finding;
+}
+
 HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger, int joint,
                        double before) {
   const double angle = now.joints[finger][joint];

@@ -240,6 +240,7 @@ ValidationResult Validate(const ValidationRequest& request, const ValidationObse
     ExamineSteps(request.object, plan, passing, report);
   }
   SkipAfterFailure(report.steps);
+  if (request.hand != nullptr) report.goals = EvaluateGoals(plan, report);
   if (request.is_grasp) MeasureGrasp(request.object, plan, report);
   if (request.options.trials.count > 0 && report.passed()) RunTrials(request, observer, result);
   if (!request.options.conditions.empty() && result.settings.hand &&

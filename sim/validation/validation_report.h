@@ -15,6 +15,7 @@
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/measured.h"
+#include "sim/validation/goal_report.h"
 
 namespace regrasp::validation {
 
@@ -91,6 +92,8 @@ struct Report {
   std::optional<sim::TrialSummary> trials = std::nullopt;
   /// Replays under other conditions, if they were requested and all steps pass the analytic check.
   std::optional<sim::ConditionSummary> conditions = std::nullopt;
+  /// Goals that the plan marks, if its hand was checked.
+  std::vector<GoalReport> goals = {};
   std::optional<RunRecord> run = std::nullopt;
 
   /// Return whether all steps pass, and enough trials and conditions if there are any.

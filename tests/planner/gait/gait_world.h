@@ -59,7 +59,7 @@ struct GaitWorld {
   criteria::GraspMemory memory{*request.solid, request.criteria, FingersOf(request),
                                criteria::QualityTest::kQuick};
   const ObjectTask task{request.scale * request.solid->mass_properties().centroid, request.turn,
-                        request.goal_pose};
+                        request.goal};
 };
 
 /// A GaitSearch with everything that it refers to.
