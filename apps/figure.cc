@@ -27,7 +27,7 @@
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/figures/contact_space_figure.h"
-#include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/plan_figure.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"

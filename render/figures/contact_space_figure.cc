@@ -10,6 +10,7 @@
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_switch.h"
 #include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"

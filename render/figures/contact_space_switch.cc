@@ -6,6 +6,7 @@
 
 #include "render/figures/contact_space_map.h"
 #include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

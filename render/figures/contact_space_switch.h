@@ -11,6 +11,7 @@
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
 #include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 
 namespace regrasp::render {
 

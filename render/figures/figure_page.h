@@ -9,30 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/index.h"
+#include "render/figures/panel_sheet.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
-
-/// File formats of figures.
-enum class FigureFormat { kSvg, kPdf, kPng };
-
-/// Widths of figures in journals, points: one column (85 mm) and two (174 mm).
-inline constexpr double kPointsPerMillimetre = 72 / 25.4;
-inline constexpr double kColumnWidth = 85 * kPointsPerMillimetre;
-inline constexpr double kTwoColumnWidth = 174 * kPointsPerMillimetre;
-
-/// Program name in the metadata of a figure: creator of a PDF, software of a PNG, root node of a
-/// glTF scene.
-inline constexpr char kFigureMaker[] = "regrasp figure";
-
-/// Write the program name into an SVG (as a comment after the first line) or a PNG (as a text chunk
-/// after the header). Cairo writes it into a PDF.
-/// @param bytes  complete file of the format.
-void MarkFigure(FigureFormat format, std::string& bytes);
-
-/// Return whether the bytes are those of a marked figure of any format.
-[[nodiscard]] bool IsMarkedFigure(const std::string& bytes);
 
 /// A white page for drawing with Cairo, in points (1/72 inch) from the top left corner.
 ///
@@ -127,5 +110,42 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
 
 /// Draw a bold name or number, centred, with a white halo.
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);
+
+enum class MarkerStyle {
+  kFilled,
+  kPale,    ///< contact behind the object
+  kHollow,  ///< white with a border: position that a finger has left
+};
+
+/// Radius of a marker without other markers on top, points.
+inline constexpr double kMarkerRadius = 2.7;
+
+/// A marker for the position of a finger. Shapes (disc, square, triangle, diamond, pentagon) and
+/// colours differ between fingers, and repeat after five. Markers are therefore distinguishable in
+/// greyscale.
+struct FingerMarker {
+  FingerIndex finger = {};
+  Eigen::Vector2d centre;  ///< position, points
+  MarkerStyle style = MarkerStyle::kFilled;
+  bool ring = false;              ///< whether it has the ring of a placed finger
+  double radius = kMarkerRadius;  ///< radius of the disc with the same area, points
+
+  /// Return the distance from the centre to the outer border, with the ring, points.
+  [[nodiscard]] double reach() const;
+};
+
+/// Enlarge markers that others cover by more than half, so that a rim stays visible. Contacts at
+/// one position are drawn nested.
+/// @param markers  markers in drawing order.
+void EnlargeCovered(std::span<FingerMarker> markers);
+
+void DrawFingerMarker(cairo_t* cr, const FingerMarker& marker);
+
+/// Mix a colour with white.
+/// @param share  share of the colour, 0 to 1.
+[[nodiscard]] Color Paler(Color color, double share);
+
+/// Share of the colour of elements behind an object.
+inline constexpr double kBehindShare = 0.45;
 
 }  // namespace regrasp::render

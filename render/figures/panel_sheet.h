@@ -1,17 +1,36 @@
 #pragma once
 
-#include <cairo.h>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "planner/base/index.h"
 #include "planner/object/polygon.h"
-#include "render/figures/figure_page.h"
-#include "render/picture/image.h"
+
+namespace regrasp::render {
+
+/// File formats of figures.
+enum class FigureFormat { kSvg, kPdf, kPng };
+
+/// Widths of figures in journals, points: one column (85 mm) and two (174 mm).
+inline constexpr double kPointsPerMillimetre = 72 / 25.4;
+inline constexpr double kColumnWidth = 85 * kPointsPerMillimetre;
+inline constexpr double kTwoColumnWidth = 174 * kPointsPerMillimetre;
+
+/// Program name in the metadata of a figure: creator of a PDF, software of a PNG, root node of a
+/// glTF scene.
+inline constexpr char kFigureMaker[] = "regrasp figure";
+
+/// Write the program name into an SVG (as a comment after the first line) or a PNG (as a text chunk
+/// after the header). Cairo writes it into a PDF.
+/// @param bytes  complete file of the format.
+void MarkFigure(FigureFormat format, std::string& bytes);
+
+/// Return whether the bytes are those of a marked figure of any format.
+[[nodiscard]] bool IsMarkedFigure(const std::string& bytes);
+
+}  // namespace regrasp::render
 
 /// Forward declaration of Cairo's type, so that users of panels do not include Cairo.
 using cairo_t = struct _cairo;
@@ -65,42 +84,5 @@ struct FigureStyle {
 
 /// Return the number of columns of a sheet with `count` (> 0) panels that are not low.
 [[nodiscard]] int SheetColumns(int count);
-
-enum class MarkerStyle {
-  kFilled,
-  kPale,    ///< contact behind the object
-  kHollow,  ///< white with a border: position that a finger has left
-};
-
-/// Radius of a marker without other markers on top, points.
-inline constexpr double kMarkerRadius = 2.7;
-
-/// A marker for the position of a finger. Shapes (disc, square, triangle, diamond, pentagon) and
-/// colours differ between fingers, and repeat after five. Markers are therefore distinguishable in
-/// greyscale.
-struct FingerMarker {
-  FingerIndex finger = {};
-  Eigen::Vector2d centre;  ///< position, points
-  MarkerStyle style = MarkerStyle::kFilled;
-  bool ring = false;              ///< whether it has the ring of a placed finger
-  double radius = kMarkerRadius;  ///< radius of the disc with the same area, points
-
-  /// Return the distance from the centre to the outer border, with the ring, points.
-  [[nodiscard]] double reach() const;
-};
-
-/// Enlarge markers that others cover by more than half, so that a rim stays visible. Contacts at
-/// one position are drawn nested.
-/// @param markers  markers in drawing order.
-void EnlargeCovered(std::span<FingerMarker> markers);
-
-void DrawFingerMarker(cairo_t* cr, const FingerMarker& marker);
-
-/// Mix a colour with white.
-/// @param share  share of the colour, 0 to 1.
-[[nodiscard]] Color Paler(Color color, double share);
-
-/// Share of the colour of elements behind an object.
-inline constexpr double kBehindShare = 0.45;
 
 }  // namespace regrasp::render

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 
 namespace regrasp::render {
 namespace figure_mark_test {

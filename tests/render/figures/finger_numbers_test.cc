@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {

@@ -1,10 +1,10 @@
-#include "render/figures/panel_sheet.h"
+#include "render/figures/figure_page.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "render/figures/figure_page.h"
+#include "render/figures/panel_sheet.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
