@@ -28,8 +28,7 @@ class Draws {
   Vector3d Direction() { return Vector(1).normalized(); }
   Isometry3d Pose() {
     Isometry3d pose = Isometry3d::Identity();
-    pose.linear() =
-        Eigen::AngleAxisd(Uniform(0, std::numbers::pi), Direction()).toRotationMatrix();
+    pose.linear() = Eigen::AngleAxisd(Uniform(0, std::numbers::pi), Direction()).toRotationMatrix();
     pose.translation() = Vector(0.1);
     return pose;
   }
@@ -93,7 +92,9 @@ TEST(GoalSetTest, NearestIsInTheSetAtTheDistance) {
     EXPECT_LT(set.Distance(nearest).length, 1e-12);
     const Eigen::AngleAxisd between(pose.linear().transpose() * nearest.linear());
     EXPECT_NEAR(between.angle(), set.Distance(pose).angle, 1e-7);
-    if (set.facing() != nullptr) EXPECT_LT((pose * pivot - nearest * pivot).norm(), 1e-12);
+    if (set.facing() != nullptr) {
+      EXPECT_LT((pose * pivot - nearest * pivot).norm(), 1e-12);
+    }
   }
 }
 

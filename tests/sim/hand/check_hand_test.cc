@@ -78,7 +78,7 @@ plan::Plan Regrasp(std::uint64_t seed) {
   const grasp::Grasp goal = first_grasp(seed + 1000);
   request.start_grasp = start;
   request.goal_grasp = goal;
-  request.goal = request.start_pose;
+  request.goal.emplace(*request.start_pose);
   const gait::GaitResult found = gait::FindGait(request);
   if (!found.gait) return {};
   return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
@@ -332,7 +332,7 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
        }},
       {"an earlier goal is missed", Reason::kGoalNotReached, "mm outside the set of goal \"b\"",
        [](plan::Plan& plan) {
-         Isometry3d high = plan.hand->initial.pose;
+         Eigen::Isometry3d high = plan.hand->initial.pose;
          plan.hand->goals = {{"a", 0, plan::GoalSet(high)}};
          high.translation().z() += 0.02;
          plan.hand->goals.push_back({"b", 0, plan::GoalSet(high)});
