@@ -330,7 +330,7 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          plan.hand->goals = {{"", static_cast<int>(plan.steps.size()), plan::GoalSet(other)}};
          return static_cast<int>(plan.steps.size());
        }},
-      {"an earlier goal is missed", Reason::kGoalNotReached, "mm outside the set of goal \"b\"",
+      {"an earlier goal is missed", Reason::kGoalNotReached, "outside the set of goal \"b\"",
        [](plan::Plan& plan) {
          Eigen::Isometry3d high = plan.hand->initial.pose;
          plan.hand->goals = {{"a", 0, plan::GoalSet(high)}};
