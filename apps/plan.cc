@@ -20,7 +20,7 @@
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "apps/help.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 #include "apps/plan_object.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"

@@ -19,10 +19,9 @@
 #include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 #include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::python {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/object/given_points.h"
 #include "planner/object/object.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/projection.h"
-#include "report/condition_table.h"
 #include "report/report_table.h"
 
 namespace regrasp::report {

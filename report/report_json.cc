@@ -9,12 +9,10 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/goal_table.h"
 #include "report/report_table.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/world/motion_monitor.h"
 
 namespace regrasp::report {

@@ -13,7 +13,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/change_paths.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
+#include "planner/collision/shape_contact.h"
 #include "planner/collision/surface_tree.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
-#include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 

@@ -28,8 +28,8 @@ GoalDistance DistanceFrom(const PoseGoal& goal, const Isometry3d& pose) {
 }
 
 GoalDistance DistanceFrom(const FacingGoal& goal, const Isometry3d& pose) {
-  return {0, std::max(0.0, AngleBetween(pose.linear() * goal.axis, goal.direction) -
-                               goal.tolerance)};
+  return {0,
+          std::max(0.0, AngleBetween(pose.linear() * goal.axis, goal.direction) - goal.tolerance)};
 }
 
 Isometry3d NearestTo(const PoseGoal& goal, const Isometry3d& pose, const Vector3d& /*pivot*/) {

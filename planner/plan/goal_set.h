@@ -27,7 +27,7 @@ struct PoseGoal {
 struct FacingGoal {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();       ///< unit vector in the object's frame
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector in the palm's frame
-  double tolerance = Radians(1);  ///< largest angle between both, radians
+  double tolerance = Radians(1);                         ///< largest angle between both, radians
 };
 
 /// Distance of a pose from a goal set: how far it exceeds each tolerance.

@@ -30,8 +30,7 @@ inline constexpr double kLargestGoalAngle_deg = 180;
 /// Other members are ignored.
 /// @param up  as in DirectionOfName.
 /// @throws InputError  if the value does not match the schema.
-[[nodiscard]] GoalSet ReadGoalSet(const JsonReader& json,
-                                  const std::optional<Eigen::Vector3d>& up);
+[[nodiscard]] GoalSet ReadGoalSet(const JsonReader& json, const std::optional<Eigen::Vector3d>& up);
 /// Write a goal set. ReadGoalSet returns it again, angles up to 1e-9 degrees.
 [[nodiscard]] Json GoalSetJson(const GoalSet& set);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/grasp/required_friction_angle.h"
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 
 namespace regrasp::plan {
 

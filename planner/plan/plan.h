@@ -140,10 +140,10 @@ struct Plan {
   /// Torsional friction length of all contacts (grasp::Contact::torsion), in the object's unit of
   /// length; 0: hard-finger contacts. ProjectPlan sets the torsion of the contacts themselves.
   double torsion = 0;
-  /// Radius of the contact patches of fingertips (object/patch_normal.h), in the object's unit of
+  /// Radius of the contact patches of fingertips (object/polyhedron.h), in the object's unit of
   /// length. If set, static grasps are force closure with the patches' normals too.
   std::optional<double> patch_radius = std::nullopt;
-  /// Whether every contact is at a point of the object's file (object/given_points.h), and fingers
+  /// Whether every contact is at a point of the object's file (object/read_object.h), and fingers
   /// move by switches only.
   bool at_given_points = false;
   std::optional<RoadmapNote> roadmap = std::nullopt;
