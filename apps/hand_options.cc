@@ -182,7 +182,7 @@ void HandOptions::AddTo(CLI::App& app) {
                  "Let an axis of the object point in a direction, as in +y,up,30. Axis: x, y or z "
                  "with an optional sign, or three numbers. Direction: the same in the palm frame, "
                  "up or down. Degrees: largest angle between both. Rotation about the axis and "
-                 "position are free")
+                 "position are free. A leading minus sign requires --goal-facing=-y,up,30")
       ->type_name("AXIS,DIRECTION,DEGREES");
   app.add_option("--goal-tolerance", goal_tolerance,
                  "Tolerance of --goal-pose or --turn in position and rotation, as in 0.005,10. "

@@ -58,6 +58,7 @@ set(regrasp_public_headers
   sim/replay/disagreement.h
   sim/replay/replay.h
   sim/replay/trials.h
+  sim/validation/goal_report.h
   sim/validation/validation.h
   sim/validation/validation_report.h
   report/report.h

@@ -13,17 +13,20 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Maximum number of end states per goal and previous end state.
+/// Maximum number of end states per goal and previous end state. With a time limit, end states of
+/// the first goal are searched until it.
 constexpr int kEndStates = 3;
-/// Maximum number of searches per goal of the list, over all end states.
+/// Maximum number of searches per goal of the list without a time limit.
 constexpr std::size_t kSearchesPerGoal = 6;
 /// Random streams of end states are this many bits apart; FindExecutableGait uses lower ones.
 constexpr int kEndStateShift = 48;
 /// Look-ahead: expanded stances, and fraction of the remaining time.
 constexpr std::int64_t kLookAheadExpanded = 150;
 constexpr double kLookAheadTime = 0.1;
-/// Fraction of the remaining time for the last goal; the rest is for other end states.
-constexpr double kLastGoalTime = 0.6;
+/// Fraction of the remaining time for the last goal, and for all goals but the first together. The
+/// rest is for other end states.
+constexpr double kLastGoalTime = 0.4;
+constexpr double kLaterGoalsTime = 0.5;
 
 /// Plan up to one of the goals.
 struct Prefix {
@@ -63,8 +66,10 @@ class GoalListSearch {
       return true;
     }
     std::vector<Prefix> postponed;
-    for (int draw = 0; draw < kEndStates && !IsOver(); ++draw) {
+    const bool draws_on = goal == 0 && request_.goals.size() > 1 && request_.deadline.left();
+    for (int draw = 0; (draw < kEndStates || draws_on) && !IsOver(); ++draw) {
       std::optional<Prefix> end = Reach(goal, before, draw);
+      if (!end && draws_on && was_cut_short_) continue;
       if (!end) break;
       const bool is_last = goal + 1 == request_.goals.size();
       if (is_last || SeesNext(goal + 1, *end)) {
@@ -72,13 +77,22 @@ class GoalListSearch {
       } else {
         postponed.push_back(*std::move(end));
       }
+      // After the usual number of end states none is postponed any longer.
+      if (draw + 1 >= kEndStates && ExtendAny(goal + 1, postponed)) return true;
     }
-    return std::ranges::any_of(
-        postponed, [&](const Prefix& end) { return !IsOver() && Extend(goal + 1, end); });
+    return ExtendAny(goal + 1, postponed);
+  }
+
+  /// Reach the remaining goals from one of the end states, which are used up.
+  bool ExtendAny(std::size_t goal, std::vector<Prefix>& ends) {
+    const std::vector<Prefix> tried = std::exchange(ends, {});
+    return std::ranges::any_of(tried,
+                               [&](const Prefix& end) { return !IsOver() && Extend(goal, end); });
   }
 
   [[nodiscard]] bool IsOver() const {
-    return request_.deadline.IsOver() || searches_ >= kSearchesPerGoal * request_.goals.size();
+    if (request_.deadline.left()) return request_.deadline.IsOver();
+    return searches_ >= kSearchesPerGoal * request_.goals.size();
   }
 
   /// Return the request for one goal from the end of the previous one.
@@ -99,20 +113,26 @@ class GoalListSearch {
     return request;
   }
 
+  /// Return the fraction of the remaining time for a goal.
+  [[nodiscard]] double TimeFor(std::size_t goal) const {
+    const std::size_t left = request_.goals.size() - goal;
+    if (request_.goals.size() == 1) return 1;
+    if (goal == 0) return 1.0 / (1.0 + static_cast<double>(left));
+    return left == 1 ? kLastGoalTime : kLaterGoalsTime / static_cast<double>(left);
+  }
+
   /// Find a plan from the end of the previous goal to a goal.
   std::optional<Prefix> Reach(std::size_t goal, const Prefix& before, int draw) {
     ++searches_;
-    const std::size_t left = request_.goals.size() - goal;
     GaitRequest request = RequestFor(goal, before);
     request.seed += static_cast<std::uint64_t>(draw) << kEndStateShift;
-    if (request_.goals.size() > 1) {
-      request.deadline = request_.deadline.After(left == 1 ? kLastGoalTime : 1.0 / (left + 1.0));
-    }
+    request.deadline = request_.deadline.After(TimeFor(goal));
     request.progress = [&](std::string_view text) {
       request_.progress("goal " + std::to_string(goal + 1) + " of " +
                         std::to_string(request_.goals.size()) + ": " + std::string(text));
     };
     const GaitResult found = FindGait(request);
+    was_cut_short_ = !found.gait && request.deadline.IsOver();
     if (!found.gait) {
       Note(goal, found);
       return std::nullopt;
@@ -155,6 +175,7 @@ class GoalListSearch {
   const GaitRequest& request_;
   Prefix found_;
   std::size_t searches_ = 0;
+  bool was_cut_short_ = false;  ///< the last search failed at its time limit
   std::size_t failed_goal_ = 0;
   std::string failure_;
   std::optional<planning::ExecutionResult> failed_execution_;

@@ -258,7 +258,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .meaning =
          "Last step: its contacts are not those of the plan's goal, or the goal is not the "
          "grasp of --goal. With `--hand` also: the object's last pose is not the hand's goal, or "
-         "after the step of a goal the object is not in its goal set (to 1e-6 m and 1e-6 rad).",
+         "the object is outside a goal set after its step. The tolerance is 1e-6 m and 1e-6 rad.",
      .causes = "Steps are missing at the end of the plan.\nThe plan was made for another goal.",
      .remedies = "Add steps that end in the goal.\nPlan for this goal."},
     {.name = "concave-corner",

@@ -308,8 +308,8 @@ def _goals_text(goals) -> tuple[str, str]:
         try:
             with open(path, encoding="utf-8") as file:
                 return path, file.read()
-        except (OSError, UnicodeDecodeError) as error:
-            raise InputError(f"goals: cannot read {path}: {error}") from None
+        except (OSError, UnicodeDecodeError):
+            raise InputError(f"goals: cannot read {path}") from None
     try:
         text = json.dumps({"format": "regrasp-goals", "version": 1, "goals": list(goals)})
     except (TypeError, ValueError) as error:

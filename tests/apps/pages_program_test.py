@@ -70,7 +70,7 @@ LEFT = {
     "guard_a_library": ["out/junit.xml", "out/plans/summary.json", "out/plans/index.html"],
     "many_plans": ["plans.jsonl", "out/plans/reports.jsonl", "merged.jsonl", "reports.jsonl"],
     "make_a_figure": ["figures/sheet.pdf", "out/large/000_hold.png"],
-    "hands": ["hand.png", "scene/scene.xml", "turn.mcap", "turn.yaml", "states/states.npz"],
+    "hands": ["hand.png", "facing.json", "next.json", "scene/scene.xml", "turn.mcap", "turn.yaml", "states/states.npz"],
     "interchange": ["grasps.npz", "turn.mcap", "hidex.json"],
     "figures": ["figures/sheet.pdf", "figures/contact_space.png"],
     "objects": ["solid.obj", "repair.json"],

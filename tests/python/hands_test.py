@@ -66,6 +66,17 @@ class HandsTest(RegraspCase):
             regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
                                  goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none")
 
+    def test_goals_are_marked_in_the_plan_and_in_the_report(self):
+        goals = [{"name": name, "facing": {"axis": axis, "direction": "up", "tolerance_deg": 30}}
+                 for name, axis in (("a", [1, 0, 1]), ("b", [-1, 0, 1]))]
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, goals=goals)
+        marks = plan.data["hand"]["goals"]
+        self.assertEqual([mark["name"] for mark in marks], ["a", "b"])
+        self.assertEqual(marks[-1]["step"], len(plan.steps))
+        report = regrasp.validate(self.cube, plan, hand=self.hand)
+        self.assertTrue(report.passed, report)
+        self.assertEqual([row["verdict"] for row in report.data["goals"]], ["pass", "pass"])
+
     def test_any_number_of_searches_at_a_time_finds_the_same_plan(self):
         told = []
         plans = [regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 120), jobs=jobs,
@@ -104,7 +115,11 @@ class HandsTest(RegraspCase):
 
         def plan(*words, object=self.cube, hand=self.hand, **named):
             self.refuses(words, lambda: regrasp.plan_in_hand(object, hand, mu=0.8, **named))
-        plan("turn", "goal_pose or goal")
+        plan("turn", "goal_pose, goals or goal")
+        plan("/goals", "must not be empty", goals=[])
+        plan("goals", "cannot read none.json", goals="none.json")
+        plan("goals", "list of dictionaries", goals=3)
+        plan("goals", "cannot be used with turn", goals=[], turn=("z", 9))
         plan("hand", "str", "Hand.read", hand="ring4.json", turn=("z", 90))
         plan("gear128.wkt", "polygon", object=gear, turn=("z", 90))
         plan("turn", "axis and degrees", turn="z90 now")

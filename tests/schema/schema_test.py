@@ -293,6 +293,29 @@ class SchemaTest(unittest.TestCase):
             (["contacts", 0, "normal"], [0, 0, 1, 0]),
         ])
 
+    def test_wrong_goals_are_refused(self):
+        facing = {"axis": "+x", "direction": "up", "tolerance_deg": 30}
+        pose = {"position": [0, 0, 0.12], "quaternion": [1, 0, 0, 0]}
+        goals = {"format": "regrasp-goals", "version": 1, "goals": [
+            {"name": "a", "facing": facing},
+            {"name": "b", "pose": pose, "tolerance_m": 0.005, "tolerance_deg": 10}]}
+        self.expect_refused("goals", goals, [
+            (["format"], "regrasp-plan"),
+            (["more"], 1),
+            (["goals"], []),
+            (["goals", 0, "name"], REMOVED),
+            (["goals", 0, "name"], ""),
+            (["goals", 0, "facing", "axis"], "up"),
+            (["goals", 0, "facing", "direction"], "left"),
+            (["goals", 0, "facing", "tolerance_deg"], -1),
+            (["goals", 0, "facing", "tolerance_deg"], REMOVED),
+            (["goals", 0, "pose"], pose),
+            (["goals", 0, "tolerance_deg"], 10),
+            (["goals", 1, "pose", "quaternion"], [1, 0, 0]),
+            (["goals", 1, "tolerance_m"], 0),
+            (["goals", 1, "yaw"], 0),
+        ])
+
     def test_wrong_plans_are_refused(self):
         plan = validate_schema.load(
             source("tests/data/plans/plan_good/cube_switches_and_align.json")

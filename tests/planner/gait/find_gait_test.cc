@@ -219,7 +219,7 @@ GaitRequest PairAtOnePose(std::uint64_t seed) {
   request.seed = seed + 1000;
   const GaitResult second = FindGait(request);
   EXPECT_TRUE(second.gait) << second.message;
-  request.goal = request.start_pose;
+  request.goal.emplace(*request.start_pose);
   request.start_grasp = FirstGrasp(first);
   request.goal_grasp = FirstGrasp(second);
   return request;
@@ -289,7 +289,7 @@ GaitRequest PairOneSlideApart(RobustnessLevel robustness) {
   const GaitResult first = FindGait(request);
   EXPECT_TRUE(first.gait) << first.message;
   request.start_pose = first.gait->start.pose;
-  request.goal = request.start_pose;
+  request.goal.emplace(*request.start_pose);
   request.start_grasp = request.goal_grasp = FirstGrasp(first);
   for (grasp::Contact& contact : request.goal_grasp) {
     contact.p += 0.0015 * contact.n.unitOrthogonal();
@@ -353,7 +353,7 @@ ThreeAndFour FindThreeAndFour() {
         std::ranges::find(segments, PlanSegment::Kind::kPlace, &PlanSegment::kind);
     if (placement == segments.end()) continue;
     found.request.start_pose = placement->path.back().pose;
-    found.request.goal = found.request.start_pose;
+    found.request.goal.emplace(*found.request.start_pose);
     found.three = GraspBefore(rotated, placement - segments.begin());
     found.four = found.three;
     found.four.push_back(rotated.contacts[placement->contact]);
@@ -424,7 +424,7 @@ TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   request.start_pose = first.gait->start.pose;
   request.most_expanded = 20;
   const auto message_at = [&](double height) {
-    request.goal = Eigen::Translation3d(0, 0, height) * *request.start_pose;
+    request.goal.emplace(Eigen::Translation3d(0, 0, height) * *request.start_pose);
     const GaitResult found = FindGait(request);
     return found.gait ? std::string("found") : found.message;
   };

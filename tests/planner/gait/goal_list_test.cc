@@ -84,7 +84,7 @@ TEST(GoalListTest, GoalsAreReachedOneAfterTheOther) {
   request.goals = {{"a", Facing({1, 0, 1}, 30)}, {"b", Facing({-1, 0, 1}, 30)}};
   const GoalListResult found = FindPlanThroughGoals(request);
   ASSERT_TRUE(found.plan) << found.message;
-  const plan::Plan& plan = *found.plan;
+  plan::Plan plan = *found.plan;
   ASSERT_EQ(plan.hand->goals.size(), 2u);
   plan::HandState state = plan.hand->initial;
   int step = 0;
@@ -105,14 +105,21 @@ TEST(GoalListTest, GoalsAreReachedOneAfterTheOther) {
   }
   EXPECT_EQ(step, std::ssize(plan.steps));
   EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
-  EXPECT_EQ(plan::FormatPlan(plan::ParsePlan(plan::FormatPlan(plan), "plan")),
-            plan::FormatPlan(plan));
+  plan.object_file = "cube.obj";
+  plan.object_sha256 = plan.hand->sha256;
+  const plan::Plan read = plan::ParsePlan(plan::FormatPlan(plan), "plan");
+  ASSERT_EQ(read.hand->goals.size(), 2u);
+  EXPECT_EQ(read.hand->goals[1].name, "b");
+  EXPECT_EQ(read.hand->goals[1].step, plan.hand->goals[1].step);
 }
 
 TEST(GoalListTest, TheGoalThatIsNotReachedIsReported) {
   GaitRequest request = QuickRequest();
   request.most_expanded = 20;
-  request.goals = {{"a", Facing({1, 0, 1}, 30)}, {"b", Facing({0, 0, -1}, 10)}};
+  Eigen::Isometry3d far = Eigen::Isometry3d::Identity();
+  far.translation().z() = 0.4;
+  const plan::GoalSet out_of_reach(plan::PoseGoal{far, {0.01, Radians(180)}});
+  request.goals = {{"a", Facing({1, 0, 1}, 30)}, {"b", out_of_reach}};
   const GoalListResult found = FindPlanThroughGoals(request);
   EXPECT_FALSE(found.plan);
   EXPECT_THAT(found.message, testing::HasSubstr("goal 2 of 2 (b) is not reached"));

@@ -92,7 +92,9 @@ TEST(GoalSetTest, NearestIsInTheSetAtTheDistance) {
     EXPECT_LT(set.Distance(nearest).length, 1e-12);
     const Eigen::AngleAxisd between(pose.linear().transpose() * nearest.linear());
     EXPECT_NEAR(between.angle(), set.Distance(pose).angle, 1e-7);
-    if (set.facing() != nullptr) EXPECT_LT((pose * pivot - nearest * pivot).norm(), 1e-12);
+    if (set.facing() != nullptr) {
+      EXPECT_LT((pose * pivot - nearest * pivot).norm(), 1e-12);
+    }
   }
 }
 
