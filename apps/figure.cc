@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/entry_names.h"
 #include "apps/help.h"
 #include "apps/list_option.h"
 #include "apps/options.h"
@@ -24,11 +23,11 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/object/reading.h"
+#include "planner/object/object.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
 #include "render/figures/contact_space_figure.h"
-#include "render/figures/figure_format.h"
+#include "render/figures/figure_page.h"
 #include "render/figures/plan_figure.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"

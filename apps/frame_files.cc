@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/entry_names.h"
+#include "apps/output_files.h"
 #include "planner/base/file.h"
 #include "render/picture/animation.h"
 

@@ -6,8 +6,8 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/npz.h"
 #include "planner/base/number.h"
+#include "planner/base/zip_archive.h"
 
 namespace regrasp::apps {
 

@@ -19,12 +19,11 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/in_blocks.h"
-#include "planner/base/npz.h"
 #include "planner/base/number.h"
 #include "planner/base/text_table.h"
-#include "planner/grasp/judge_grasps.h"
+#include "planner/base/zip_archive.h"
+#include "planner/grasp/force_closure.h"
 #include "planner/plan/projection.h"
-#include "planner/plan/surface_tolerance.h"
 #include "sim/validation/validation.h"
 
 namespace regrasp::apps {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
@@ -10,6 +12,8 @@
 #include "apps/options.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/hand_model.h"
+#include "planner/plan/goal_set_io.h"
 
 namespace regrasp::apps {
 namespace {
@@ -19,11 +23,29 @@ constexpr double kLargestClearance_m = 0.05;
 /// Tolerance of a quaternion's length, for text with few digits.
 constexpr double kLargestNormError = 1e-3;
 constexpr double kFarthest_m = 10;
+constexpr double kShortestDirection = 1e-9;
 
 /// Replace commas by spaces; lists are accepted with both.
 std::string SpacesForCommas(std::string text) {
   std::ranges::replace(text, ',', ' ');
   return text;
+}
+
+/// Parse a finite number that fills the text.
+std::optional<double> NumberIn(const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+void CheckRange(const std::string& option, const std::string& what, double value, double lower,
+                double upper) {
+  if (value >= lower && value <= upper) return;
+  throw InputError(option + ": " + what + " must be between " + FormatShort(lower) + " and " +
+                   FormatShort(upper) + ", found " + FormatShort(value));
 }
 
 /// Parse "z,90".
@@ -74,6 +96,67 @@ Eigen::Isometry3d ParsePose(const std::string& option, const std::string& text) 
   return pose;
 }
 
+/// Read a direction from a list of words: a name, or three numbers.
+/// @param up  upward direction of the palm; nullopt: up and down are not accepted.
+std::optional<Eigen::Vector3d> NextDirection(std::istringstream& words,
+                                             const std::optional<Eigen::Vector3d>& up) {
+  std::string word;
+  if (!(words >> word)) return std::nullopt;
+  if (const auto direction = plan::DirectionOfName(word, up)) return direction;
+  Eigen::Vector3d vector;
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0 && !(words >> word)) return std::nullopt;
+    const auto number = NumberIn(word);
+    if (!number) return std::nullopt;
+    vector[k] = *number;
+  }
+  return vector;
+}
+
+/// Parse "+y,up,30".
+plan::GoalSet ParseFacing(const std::string& text, const Eigen::Vector3d& up) {
+  std::istringstream words(SpacesForCommas(text));
+  const auto axis = NextDirection(words, std::nullopt);
+  const auto direction = axis ? NextDirection(words, up) : std::nullopt;
+  std::string degrees;
+  std::string rest;
+  const bool is_list = direction && words >> degrees && !(words >> rest);
+  const auto tolerance = is_list ? NumberIn(degrees) : std::nullopt;
+  if (!tolerance) {
+    throw InputError(
+        "--goal-facing: expected an axis, a direction and degrees, as in +y,up,30 or "
+        "0,1,0,0,0,1,30, found \"" +
+        text + "\"");
+  }
+  for (const Eigen::Vector3d& vector : {*axis, *direction}) {
+    if (vector.norm() >= kShortestDirection) continue;
+    throw InputError("--goal-facing: must not have a zero vector, found \"" + text + "\"");
+  }
+  CheckRange("--goal-facing", "degrees", *tolerance, plan::kSmallestGoalAngle_deg,
+             plan::kLargestGoalAngle_deg);
+  return plan::GoalSet(
+      plan::FacingGoal{axis->normalized(), direction->normalized(), Radians(*tolerance)});
+}
+
+/// Parse "0.005,10".
+plan::PoseTolerance ParseTolerance(const std::string& text) {
+  std::istringstream words(SpacesForCommas(text));
+  std::array<std::string, 2> parts;
+  std::string rest;
+  const bool is_list = words >> parts[0] >> parts[1] && !(words >> rest);
+  const auto length = is_list ? NumberIn(parts[0]) : std::nullopt;
+  const auto degrees = is_list ? NumberIn(parts[1]) : std::nullopt;
+  if (!length || !degrees) {
+    throw InputError("--goal-tolerance: expected metres and degrees, as in 0.005,10, found \"" +
+                     text + "\"");
+  }
+  CheckRange("--goal-tolerance", "metres", *length, plan::kSmallestGoalLength_m,
+             plan::kLargestGoalLength_m);
+  CheckRange("--goal-tolerance", "degrees", *degrees, plan::kSmallestGoalAngle_deg,
+             plan::kLargestGoalAngle_deg);
+  return {*length, Radians(*degrees)};
+}
+
 }  // namespace
 
 void HandOptions::AddTo(CLI::App& app) {
@@ -95,6 +178,25 @@ void HandOptions::AddTo(CLI::App& app) {
          "Goal pose of the object in the palm frame. As --start-pose"}}) {
     app.add_option(option, *value, what)->type_name("X,Y,Z,QW,QX,QY,QZ");
   }
+  app.add_option("--goal-facing", goal_facing,
+                 "Let an axis of the object point in a direction, as in +y,up,30. Axis: x, y or z "
+                 "with an optional sign, or three numbers. Direction: the same in the palm frame, "
+                 "up or down. Degrees: largest angle between both. Rotation about the axis and "
+                 "position are free")
+      ->type_name("AXIS,DIRECTION,DEGREES");
+  app.add_option("--goal-tolerance", goal_tolerance,
+                 "Tolerance of --goal-pose or --turn in position and rotation, as in 0.005,10. "
+                 "Position: that of the object's origin, with --turn that of its centre "
+                 "[default: 0.001,1; with --turn some millimetres, exact rotation]")
+      ->type_name("METRES,DEGREES");
+  app.add_option("--goals", goals,
+                 "File of named goals in JSON. The plan reaches them one after the other and marks "
+                 "the step of each; `validate` checks every marked goal")
+      ->type_name("FILE");
+  app.add_option("--continue", continue_plan,
+                 "Plan whose end is the start: the object's pose, the contacts and all joints. "
+                 "Hand, object and --scale must be those of that plan")
+      ->type_name("PLAN");
   AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},
             "Minimum distance of links from each other, palm and object, metres "
             "[default: 0.001]",
@@ -117,21 +219,46 @@ void HandOptions::AddTo(CLI::App& app) {
 }
 
 void HandOptions::Check(const std::string& start, const std::string& goal) const {
-  for (const auto& [option, value] :
-       {std::pair("--turn", turn), {"--start-pose", start_pose}, {"--goal-pose", goal_pose}}) {
+  for (const auto& [option, value] : {std::pair("--turn", turn),
+                                      {"--start-pose", start_pose},
+                                      {"--goal-pose", goal_pose},
+                                      {"--goal-facing", goal_facing},
+                                      {"--goal-tolerance", goal_tolerance},
+                                      {"--goals", goals},
+                                      {"--continue", continue_plan}}) {
     if (given() || value.empty()) continue;
     throw InputError(std::string(option) + " requires --hand");
   }
   if (!given()) return;
-  const bool moves = !turn.empty() || !goal_pose.empty();
+  const bool moves = !turn.empty() || !goal_pose.empty() || !goal_facing.empty() || !goals.empty();
   if (!moves && goal.empty()) {
-    throw InputError("--hand: requires a task, --turn, --goal-pose or --goal; help: --turn z,90");
+    throw InputError(
+        "--hand: requires a task, --turn, --goal-pose, --goal-facing, --goals or --goal; help: "
+        "--turn z,90");
   }
-  if (!moves && start.empty() && start_pose.empty()) {
+  if (!moves && start.empty() && start_pose.empty() && continue_plan.empty()) {
     throw InputError("--goal: with --hand requires --start or --start-pose");
   }
   if (!turn.empty() && !goal_pose.empty()) {
     throw InputError("--turn: cannot be used with --goal-pose");
+  }
+  for (const auto& [option, value] : {std::pair("--turn", turn), {"--goal-pose", goal_pose}}) {
+    if (goal_facing.empty() || value.empty()) continue;
+    throw InputError(std::string("--goal-facing: cannot be used with ") + option);
+  }
+  for (const auto& [option, value] : {std::pair("--turn", turn),
+                                      {"--goal-pose", goal_pose},
+                                      {"--goal-facing", goal_facing},
+                                      {"--goal", goal}}) {
+    if (goals.empty() || value.empty()) continue;
+    throw InputError(std::string("--goals: cannot be used with ") + option);
+  }
+  for (const auto& [option, value] : {std::pair("--start", start), {"--start-pose", start_pose}}) {
+    if (continue_plan.empty() || value.empty()) continue;
+    throw InputError(std::string("--continue: cannot be used with ") + option);
+  }
+  if (!goal_tolerance.empty() && turn.empty() && goal_pose.empty()) {
+    throw InputError("--goal-tolerance: requires --goal-pose or --turn");
   }
 }
 
@@ -140,7 +267,18 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
   task.margin = clearance_m;
   if (!turn.empty()) task.turn = ParseTurn(turn);
   if (!start_pose.empty()) task.start_pose = ParsePose("--start-pose", start_pose);
-  if (!goal_pose.empty()) task.goal_pose = ParsePose("--goal-pose", goal_pose);
+  std::optional<plan::PoseTolerance> tolerance;
+  if (!goal_tolerance.empty()) tolerance = ParseTolerance(goal_tolerance);
+  if (!turn.empty()) task.turn_tolerance = tolerance;
+  if (!goal_pose.empty()) {
+    task.goal = plan::GoalSet(plan::PoseGoal{ParsePose("--goal-pose", goal_pose),
+                                             tolerance.value_or(plan::PoseTolerance())});
+  }
+  if (!goal_facing.empty()) {
+    const Eigen::Vector3d up = task.hand == nullptr ? Eigen::Vector3d::UnitZ() : task.hand->up;
+    task.goal = ParseFacing(goal_facing, up);
+  }
+  if (!goals.empty() && task.hand != nullptr) task.goals = plan::ReadGoalList(goals, task.hand->up);
 }
 
 }  // namespace regrasp::apps

@@ -15,6 +15,10 @@ struct HandOptions {
   std::string turn;
   std::string start_pose;
   std::string goal_pose;
+  std::string goal_facing;
+  std::string goal_tolerance;
+  std::string goals;          ///< file of goals; empty: none
+  std::string continue_plan;  ///< plan whose end is the start; empty: none
   double clearance_m = 1e-3;
   /// Required robustness, and the conditions of the simulated execution.
   struct Robustness {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 
 namespace regrasp::apps {
 

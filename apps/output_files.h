@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "planner/plan/plan.h"
 
 namespace regrasp::apps {
 
@@ -55,5 +58,21 @@ void CheckOutputsWritable(const OutputFiles& outputs);
 /// Return the bytes of a file that the program itself has written.
 /// @throws EnvironmentError  if it was removed or cannot be read. This is not an input error.
 [[nodiscard]] std::string ReadOutput(const std::filesystem::path& path);
+
+/// Return the number of a plan's entry for file names.
+/// It has at least three digits, so that names sort.
+[[nodiscard]] std::string EntryNumber(plan::EntryIndex index);
+
+/// Return the part of a name after its leading entry number.
+/// nullopt if the name does not start with one.
+[[nodiscard]] std::optional<std::string> AfterEntryNumber(const std::string& name);
+
+/// Return the name of an entry's image: "000_hold.png", "001_switch.png".
+/// @param ending  file name extension: "png".
+[[nodiscard]] std::string EntryFileName(plan::EntryIndex index, const std::string& kind,
+                                        const std::string& ending);
+
+/// Return whether EntryFileName returns this name for any entry.
+[[nodiscard]] bool IsEntryFileName(const std::string& name, const std::string& ending);
 
 }  // namespace regrasp::apps

@@ -20,7 +20,7 @@
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
@@ -45,7 +45,9 @@ std::string StepCounts(const std::vector<plan::Step>& steps) {
 void CheckOutput(const PlanProgram& program) {
   if (program.output == "-") return;
   std::vector<NamedFile> inputs = {{"--object", program.common.object},
-                                   {"--hand", program.hand.hand}};
+                                   {"--hand", program.hand.hand},
+                                   {"--goals", program.hand.goals},
+                                   {"--continue", program.hand.continue_plan}};
   for (const PlanEnd& end : {program.start, program.goal}) {
     if (!end.is_random()) inputs.push_back({end.option, end.value});
   }

@@ -9,11 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/batch/inputs_digest.h"
 #include "apps/batch/object_cache.h"
-#include "apps/build_id.h"
 #include "apps/lines_run.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"

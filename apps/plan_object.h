@@ -4,7 +4,6 @@
 #include <string>
 
 #include "planner/object/object.h"
-#include "planner/object/reading.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp::apps {

@@ -6,14 +6,17 @@
 #include <thread>
 
 #include "apps/help.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
+#include "apps/plan_object.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/gait/request.h"
 #include "planner/plan/grasp_io.h"
+#include "planner/plan/plan_io.h"
 #include "planner/planning/in_hand_task.h"
+#include "planner/planning/plan_end.h"
 #include "planner/planning/solve.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
@@ -160,6 +163,10 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
         sim::ExecutionSimulator(*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object),
                                 sim::PlanningConditions(hand.robustness.conditions));
     hand.AskFor(task);
+    if (continued) {
+      CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
+      planning::StartFrom(planning::EndOfPlan(*continued), task);
+    }
     gait::AskInHand(task, request);
   }
   const planning::Planner& planner = common.PlannerFor(request);
@@ -196,6 +203,23 @@ void PlanProgram::ReadHand() {
   planning::InHandTask task;
   hand.AskFor(task);  // checks the options before any file is read
   hand_file = std::make_shared<const kinematics::HandFile>(kinematics::ReadHandFile(hand.hand));
+  task.hand = &hand_file->hand;
+  hand.AskFor(task);  // reads the goals
+  if (!hand.continue_plan.empty()) ReadContinuedPlan();
+}
+
+void PlanProgram::ReadContinuedPlan() {
+  const std::string& path = hand.continue_plan;
+  continued = std::make_shared<const plan::Plan>(plan::ReadPlan(path));
+  if (!continued->hand) throw InputError("--continue: " + path + ": requires a plan for a hand");
+  if (continued->hand->sha256 != hand_file->hand.sha256) {
+    throw InputError("--continue: " + path + ": the plan is for another hand, expected " +
+                     DescribeFile(continued->hand->file, continued->hand->sha256) + ", found " +
+                     DescribeFile(hand_file->hand.file, hand_file->hand.sha256));
+  }
+  const plan::FingerGrasp grasp = planning::EndOfPlan(*continued).grasp;
+  start.text = plan::FormatGrasp(plan::ContactsOf(grasp), continued->dimension);
+  start.name = path + ": the grasp after the last step";
 }
 
 FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoints& given) const {
@@ -222,7 +246,8 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 
 void PlanProgram::Finish(const CLI::App& app) {
   for (const char* name :
-       {"--turn", "--start-pose", "--goal-pose", "--clearance", "--robustness"}) {
+       {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
+        "--goals", "--continue", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }
@@ -234,6 +259,9 @@ void PlanProgram::Finish(const CLI::App& app) {
       throw InputError("--jobs requires --batch or --hand");
     }
     return;
+  }
+  for (const char* name : {"--goals", "--continue"}) {
+    if (app.count(name) > 0) throw InputError(std::string(name) + ": cannot be used with --batch");
   }
   given = GivenOptions(app, {"--help", "--version", "--object", "--start", "--goal", "--hand",
                              "--output", "--batch", "--shard", "--jobs", "--restart", "--quiet"});

@@ -56,6 +56,8 @@ struct PlanProgram {
   HandOptions hand;
   /// File of --hand after ReadHand.
   std::shared_ptr<const kinematics::HandFile> hand_file;
+  /// Plan of --continue after ReadHand; null: none.
+  std::shared_ptr<const plan::Plan> continued;
   std::string batch;  ///< file of queries, which override the options
   std::string shard;
   int jobs;
@@ -87,6 +89,8 @@ struct PlanProgram {
   void AddEnds(CLI::App& app);
   void AddSearch(CLI::App& app);
   void AddBatch(CLI::App& app);
+  /// Read the plan of --continue, and check that it is for the hand.
+  void ReadContinuedPlan();
   [[nodiscard]] planning::GraspChoice Choose(const PlanEnd& end,
                                              const object::Object& object) const;
   [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;

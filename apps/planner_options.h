@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "apps/options.h"
-#include "apps/repair_options.h"
+#include "apps/repair_module.h"
 #include "planner/base/deadline.h"
 #include "planner/object/object.h"
-#include "planner/object/reading.h"
 #include "planner/plan/plan.h"
 #include "planner/planning/planner.h"
 

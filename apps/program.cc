@@ -1,24 +1,37 @@
 #include "apps/program.h"
 
+#include <elf.h>
 #include <fcntl.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <regex>
 #include <span>
+#include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
-#include "apps/colour.h"
 #include "apps/help.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 #include "apps/renamed_options.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/text_table.h"
 
 namespace regrasp::apps {
@@ -227,6 +240,128 @@ int RunProgram(CLI::App& app, int argc, const char* const* argv, const std::func
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     return Run(app, words, argc > 0 ? argv[0] : "", run);
   });
+}
+
+namespace {
+
+constexpr std::string_view kOwner{ELF_NOTE_GNU, sizeof ELF_NOTE_GNU};
+
+/// Return the build ID in the notes of an ELF segment; empty if there is none.
+/// @param notes  consecutive notes: header, name of the owner and content, each padded.
+std::string FindBuildId(std::string_view notes, std::size_t alignment) {
+  const auto padded = [alignment](std::size_t size) {
+    return (size + alignment - 1) / alignment * alignment;
+  };
+  ElfW(Nhdr) header;
+  while (notes.size() >= sizeof header) {
+    std::memcpy(&header, notes.data(), sizeof header);
+    const std::size_t content = sizeof header + padded(header.n_namesz);
+    const std::size_t end = content + padded(header.n_descsz);
+    if (end > notes.size()) break;
+    const bool is_id =
+        header.n_type == NT_GNU_BUILD_ID && notes.substr(sizeof header, header.n_namesz) == kOwner;
+    if (is_id) return Hexadecimal(notes.substr(content, header.n_descsz));
+    notes.remove_prefix(end);
+  }
+  return "";
+}
+
+/// Take the build ID of the first object, which is the program, and stop.
+int TakeProgram(dl_phdr_info* object, std::size_t /*size*/, void* id) {
+  for (int i = 0; i < object->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& part = object->dlpi_phdr[i];
+    if (part.p_type != PT_NOTE) continue;
+    const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
+    // Notes are padded to 4 bytes, or to 8 if their segment is aligned to 8.
+    const std::string found = FindBuildId({notes, part.p_memsz}, part.p_align == 8 ? 8 : 4);
+    if (!found.empty()) *static_cast<std::string*>(id) = found;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string BuildId() {
+  std::string id;
+  dl_iterate_phdr(TakeProgram, &id);
+  // Different builds must not have the same ID.
+  return id.empty() ? Sha256(ReadFile("/proc/self/exe")) : id;
+}
+
+namespace {
+
+constexpr const char* kVariable = "SOURCE_DATE_EPOCH";
+constexpr std::time_t kLatest = 253402300799;  // last second of the year 9999
+
+std::time_t Seconds() {
+  const char* value = std::getenv(kVariable);
+  if (value == nullptr || *value == '\0') {
+    return std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  }
+  const std::string_view text = value;
+  std::time_t seconds = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size() || seconds < 0 ||
+      seconds > kLatest) {
+    throw InputError(std::string(kVariable) +
+                     ": must be seconds since 1970-01-01 (date +%s), found \"" + value + "\"");
+  }
+  return seconds;
+}
+
+}  // namespace
+
+std::string RunDate() {
+  const std::time_t seconds = Seconds();
+  std::tm day = {};
+  gmtime_r(&seconds, &day);
+  std::array<char, sizeof "2026-11-23"> text = {};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%d", &day);
+  return {text.data(), size};
+}
+
+namespace {
+
+Ink InkOf(std::string_view verdict) {
+  if (verdict.starts_with("pass")) return Ink::kGreen;
+  return verdict == "skipped" ? Ink::kFaint : Ink::kRed;
+}
+
+std::string PaintLine(const std::string& line) {
+  // "verdict: fail, …", and the first line of a failed plan.
+  static const std::regex kWhole("(verdict: )(.*)|()(step \\d+ \\(\\w+\\) fails: .*)");
+  // A cell of a table.
+  static const std::regex kCell("(.*?  )(pass|fail(: \\S+)?|skipped|bad-input|error)((  .*)?)");
+  std::smatch found;
+  if (std::regex_match(line, found, kWhole)) {
+    const std::string said = found[2].matched ? found[2].str() : found[4].str();
+    return found[1].str() + Paint(said, InkOf(said));
+  }
+  if (std::regex_match(line, found, kCell)) {
+    return found[1].str() + Paint(found[2].str(), InkOf(found[2].str())) + found[4].str();
+  }
+  return line;
+}
+
+}  // namespace
+
+bool TakesColour(int stream) {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  return variable("NO_COLOR").empty() && variable("TERM") != "dumb" && isatty(stream) == 1;
+}
+
+std::string Paint(const std::string& text, Ink ink) {
+  return "\x1b[" + std::to_string(static_cast<int>(ink)) + "m" + text + "\x1b[0m";
+}
+
+std::string PaintVerdicts(const std::string& table) {
+  std::string painted;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) painted += PaintLine(line) + "\n";
+  return painted;
 }
 
 }  // namespace regrasp::apps

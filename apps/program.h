@@ -55,4 +55,31 @@ void PrintError(const std::string& program, std::string_view message);
 /// A line with the paths of its files is inserted before the last line.
 void PrintTable(const std::string& table, const std::string& files);
 
+/// Return the linker's digest of the running program, hexadecimal.
+/// It is the ELF note NT_GNU_BUILD_ID. Builds from different sources, by a different compiler or
+/// with different options have different digests. If the linker wrote none, it is the SHA-256 of
+/// the program's file.
+[[nodiscard]] std::string BuildId();
+
+/// Return the date of the results in UTC: "2026-11-23".
+/// If the environment variable SOURCE_DATE_EPOCH is set, it replaces the clock. It is the number of
+/// seconds since 1970, as for reproducible builds. The same results can then be made on another
+/// day.
+/// @throws InputError  if the variable is not a number of seconds up to the year 9999.
+[[nodiscard]] std::string RunDate();
+
+/// Return whether text on a stream may have colour.
+/// The stream must be a terminal that is not dumb, and NO_COLOR must be unset or empty
+/// (no-color.org).
+/// @param stream  STDOUT_FILENO or STDERR_FILENO.
+[[nodiscard]] bool TakesColour(int stream);
+
+enum class Ink { kRed = 31, kGreen = 32, kYellow = 33, kFaint = 2 };
+
+/// Return text in a colour (ECMA-48 SGR).
+[[nodiscard]] std::string Paint(const std::string& text, Ink ink);
+
+/// Colour the verdicts of a table: pass green, fail and error red, skipped faint.
+[[nodiscard]] std::string PaintVerdicts(const std::string& table);
+
 }  // namespace regrasp::apps

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/nearest_word.h"
+#include "apps/options.h"
 #include "apps/program.h"
 #include "planner/base/error.h"
 

@@ -11,7 +11,7 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/repair_options.h"
+#include "apps/repair_module.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/object/read_object.h"

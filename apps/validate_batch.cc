@@ -7,7 +7,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "apps/batch/batch_page.h"
 #include "apps/batch/batch_summary.h"
 #include "apps/batch/plan_library.h"
 #include "apps/batch/process_pool.h"
@@ -17,7 +16,6 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "apps/progress.h"
-#include "apps/run_digest.h"
 #include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"

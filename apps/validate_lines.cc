@@ -8,13 +8,11 @@
 #include <system_error>
 #include <vector>
 
-#include "apps/batch/inputs_digest.h"
 #include "apps/batch/object_cache.h"
 #include "apps/batch/report_summary.h"
 #include "apps/earlier_run.h"
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
-#include "apps/run_digest.h"
 #include "apps/validate_run.h"
 #include "apps/validate_task.h"
 #include "planner/base/error.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/options.h"
-#include "apps/repair_options.h"
+#include "apps/repair_module.h"
 #include "planner/criteria/grasp_criteria.h"
 #include "render/frames/frame.h"
 #include "render/frames/overview_image.h"

@@ -4,20 +4,20 @@
 #include <memory>
 #include <system_error>
 
+#include "apps/earlier_run.h"
 #include "apps/frame_files.h"
 #include "apps/output_files.h"
 #include "apps/plan_object.h"
 #include "apps/program.h"
 #include "apps/progress.h"
 #include "apps/repair_module.h"
-#include "apps/run_digest.h"
 #include "apps/validate_run.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/criteria/reach.h"
 #include "planner/object/body_measures.h"
-#include "planner/object/given_points.h"
-#include "planner/object/reading.h"
+#include "planner/object/object.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "report/report_json.h"

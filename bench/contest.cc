@@ -6,7 +6,7 @@
 #include "bench/processor_clock.h"
 #include "planner/base/random.h"
 #include "planner/criteria/grasp_evaluator.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp {
 

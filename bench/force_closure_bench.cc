@@ -17,8 +17,8 @@
 
 #include "bench/pyramid_force_closure.h"
 #include "planner/base/number.h"
-#include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/growing_hull.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/subset_force_closure.h"
 

@@ -101,7 +101,7 @@ std::optional<gait::GaitRequest> DrawPair(gait::GaitRequest request) {
   const auto goal = rests.Draw(random, kTries);
   if (!start || !goal) return std::nullopt;
   gait::GaitRequest pair = request;
-  pair.goal_pose = request.start_pose;
+  pair.goal = request.start_pose;
   pair.start_grasp = plan::ContactsOf(start->grasp);
   pair.goal_grasp = plan::ContactsOf(goal->grasp);
   return pair;

@@ -13,8 +13,8 @@
 #include "planner/planning/solve.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_parameters.h"
-#include "planner/sets/set_sampling.h"
 
 namespace regrasp {
 

@@ -15,7 +15,6 @@
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/sets/polyhedron/polyhedron_graph.h"
-#include "planner/sets/polyhedron/sampled_graph.h"
 
 namespace {
 

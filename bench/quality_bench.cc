@@ -20,9 +20,9 @@
 
 #include "bench/processor_clock.h"
 #include "planner/base/number.h"
-#include "planner/grasp/bound_quality.h"
-#include "planner/grasp/convex_hull.h"
 #include "planner/grasp/force_closure.h"
+#include "planner/grasp/growing_hull.h"
+#include "planner/grasp/quality.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/object/polyhedron.h"
 #include "planner/planning/solve.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "planner/sampling/contact_points.h"
 

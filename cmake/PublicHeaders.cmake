@@ -9,31 +9,27 @@ set(regrasp_public_headers
   planner/base/index.h
   planner/base/random.h
   # Objects.
-  planner/object/mass_properties.h
-  planner/object/mesh_defect.h
+  planner/object/wrench_frame.h
+  planner/object/polygon_soup.h
   planner/object/object.h
   planner/object/polygon.h
-  planner/object/polygon_soup.h
   planner/object/polyhedron.h
-  planner/object/reading.h
   planner/object/triangle_mesh.h
-  planner/object/wrench_frame.h
   # Grasps.
   planner/grasp/contact.h
-  planner/grasp/finger_friction.h
+  planner/grasp/required_friction_angle.h
   planner/grasp/force_closure.h
   planner/grasp/quality.h
-  planner/grasp/required_friction_angle.h
   # Plans: reading, writing, the analytic check.
   planner/motion/motion_segment.h
   planner/certificate/force_proof.h
   planner/plan/check.h
   planner/plan/grasp_io.h
   planner/plan/projection.h
+  planner/plan/goal_set.h
   planner/plan/plan.h
   planner/plan/plan_io.h
   planner/plan/reason.h
-  planner/plan/snapshot.h
   planner/plan/contact_region.h
   # Planning: a request, a result, and the planners by their names.
   planner/criteria/grasp_criteria.h
@@ -46,9 +42,8 @@ set(regrasp_public_headers
   planner/sets/set_parameters.h
   # Hands: a hand's file, a task for it, the planner, the replay by its actuators.
   planner/collision/convex_shape.h
-  planner/kinematics/hand_description.h
-  planner/kinematics/hand_file.h
   planner/kinematics/hand_model.h
+  planner/kinematics/hand_file.h
   planner/planning/in_hand_task.h
   planner/gait/gait_planner.h
   sim/hand/check_hand.h
@@ -57,9 +52,8 @@ set(regrasp_public_headers
   sim/actuation/hand_replay.h
   sim/actuation/simulate_execution.h
   # Validation, its replays and its report.
-  sim/scene/hand_conditions.h
-  sim/scene/measured.h
   sim/scene/settings.h
+  sim/scene/measured.h
   sim/world/replay_observer.h
   sim/replay/disagreement.h
   sim/replay/replay.h

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/grasp/judge_grasps.h"
+#include "planner/grasp/force_closure.h"
 #include "python/binding.h"
 
 namespace regrasp::python {

@@ -16,10 +16,8 @@
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/read_object.h"
-#include "planner/object/reading.h"
 #include "planner/repair/repair.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 
 namespace regrasp::python {
 

@@ -13,15 +13,15 @@
 #include "planner/criteria/reach.h"
 #include "planner/gait/gait_planner.h"
 #include "planner/object/polyhedron.h"
+#include "planner/plan/goal_set_io.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/in_hand_task.h"
 #include "planner/planning/solve.h"
 #include "planner/registry/registry.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 #include "sim/actuation/simulate_execution.h"
 
 namespace regrasp::python {
@@ -53,6 +53,8 @@ struct HandArguments {
   Eigen::Vector3d turn_axis = Eigen::Vector3d::UnitZ();
   double turn_angle = 0;  ///< radians
   std::optional<std::array<double, 7>> start_pose, goal_pose;
+  std::optional<std::string> goals;  ///< text of a file of goals
+  std::string goals_name;            ///< name of this text in messages
   double clearance = 1e-3;
   planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
   bool is_standard = false;  ///< whether plans must execute under PlanningRobustness::kStandard
@@ -67,6 +69,16 @@ std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7
   return pose;
 }
 
+std::optional<plan::GoalSet> GoalOf(const HandArguments& given) {
+  if (const auto pose = PoseOf(given.goal_pose)) return plan::GoalSet(*pose);
+  return std::nullopt;
+}
+
+std::vector<plan::NamedGoal> GoalsOf(const HandArguments& given, const PythonHand& hand) {
+  if (!given.goals) return {};
+  return plan::ParseGoalList(*given.goals, given.goals_name, hand.file.hand.up);
+}
+
 planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
                             const HandArguments& given) {
   return {.hand = &hand.file.hand,
@@ -75,7 +87,8 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .margin = given.clearance,
           .turn = {given.turn_axis, given.turn_angle},
           .start_pose = PoseOf(given.start_pose),
-          .goal_pose = PoseOf(given.goal_pose),
+          .goal = GoalOf(given),
+          .goals = GoalsOf(given, hand),
           .simulate = sim::ExecutionSimulator(
               hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object),
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
@@ -190,6 +203,8 @@ void BindPlans(py::module_& module) {
       .def_readwrite("turn_angle", &HandArguments::turn_angle)
       .def_readwrite("start_pose", &HandArguments::start_pose)
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
+      .def_readwrite("goals", &HandArguments::goals)
+      .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)
       .def_readwrite("robustness", &HandArguments::robustness)
       .def_readwrite("is_standard", &HandArguments::is_standard);

@@ -17,7 +17,6 @@
 #include "planner/base/number.h"
 #include "planner/plan/plan_io.h"
 #include "python/binding.h"
-#include "python/interrupt.h"
 #include "render/picture/image.h"
 #include "report/failure.h"
 #include "report/pictures/report_pictures.h"

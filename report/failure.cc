@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/object/given_points.h"
 #include "planner/object/object.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/projection.h"
-#include "report/condition_table.h"
 #include "report/report_table.h"
 
 namespace regrasp::report {
@@ -166,8 +164,7 @@ std::string SuggestedFixOf(const ReportStep& step, const Report& report) {
     case Reason::kStartDiffers:
       return "plan from the grasp of --start, or omit --start";
     case Reason::kGoalNotReached:
-      if (step.fault().hand)
-        return "end the last motion in the goal of the hand, or use another goal";
+      if (step.fault().hand) return "plan again, so that the object reaches its goal";
       return "add steps that end in the goal grasp, or use another goal";
     case Reason::kNone:
       return "";
@@ -284,7 +281,10 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kStartDiffers:
       return "the plan must begin with the grasp of --start";
     case Reason::kGoalNotReached:
-      if (hand) return "the object must end at the goal of the plan's hand, to 1 µm and 1e-6 rad";
+      if (hand) {
+        return "the object must end at the goal of the plan's hand and be in each goal set of the "
+               "plan, to 1 µm and 1e-6 rad";
+      }
       return "the contacts after the last step must be those of the goal";
     case Reason::kNone:
       return "";

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
+#include "planner/base/number.h"
 #include "planner/base/text_table.h"
+#include "report/failure.h"
 
 namespace regrasp::report {
 
@@ -75,6 +78,127 @@ std::string Element::FormatAttributes(const Attributes& attributes) {
     text += " " + name + "=\"" + EscapeMarkup(value) + "\"";
   }
   return text;
+}
+
+namespace {
+
+/// Return the text of a failure, with the path of its image.
+std::string FailureText(const JunitCase& result) {
+  return result.text + (result.picture.empty() ? "" : "\npicture: " + result.picture);
+}
+
+/// Decimals of times in seconds, as in other JUnit files.
+constexpr int kTimeDecimals = 3;
+
+Element MakeCase(const std::string& suite, const JunitCase& result) {
+  Element element("testcase", {{"classname", suite},
+                               {"name", result.name},
+                               {"time", FormatFixed(result.seconds, kTimeDecimals)}});
+  const Attributes message = {{"message", result.message}};
+  switch (result.outcome) {
+    case JunitOutcome::kPassed:
+      break;
+    case JunitOutcome::kFailed:
+      element.Add(Element("failure", message, FailureText(result)));
+      if (!result.picture.empty()) {
+        element.Add(Element("system-out", {}, "[[ATTACHMENT|" + result.picture + "]]"));
+      }
+      break;
+    case JunitOutcome::kError:
+      element.Add(Element("error", message, result.text));
+      break;
+    case JunitOutcome::kSkipped:
+      element.Add(Element("skipped"));
+      break;
+  }
+  return element;
+}
+
+Element MakeSuite(const JunitSuite& suite) {
+  const auto count = [&](JunitOutcome outcome) {
+    return std::to_string(std::ranges::count(suite.cases, outcome, &JunitCase::outcome));
+  };
+  std::vector<Element> cases;
+  for (const JunitCase& result : suite.cases) cases.push_back(MakeCase(suite.name, result));
+  return Element("testsuite",
+                 {{"name", suite.name},
+                  {"tests", std::to_string(suite.cases.size())},
+                  {"failures", count(JunitOutcome::kFailed)},
+                  {"errors", count(JunitOutcome::kError)},
+                  {"skipped", count(JunitOutcome::kSkipped)},
+                  {"time", FormatFixed(suite.seconds, kTimeDecimals)}},
+                 cases);
+}
+
+}  // namespace
+
+std::string JunitText(const std::string& detail, const std::string& why,
+                      const std::string& suggested_fix) {
+  std::string text = detail;
+  for (const auto& [name, said] : {std::pair{"why", &why}, {"help", &suggested_fix}}) {
+    if (!said->empty()) text += std::string("\n") + name + ": " + *said;
+  }
+  return text;
+}
+
+JunitOutcome OutcomeOf(std::string_view verdict) {
+  if (verdict == "pass") return JunitOutcome::kPassed;
+  return verdict == "fail" ? JunitOutcome::kFailed : JunitOutcome::kSkipped;
+}
+
+namespace {
+
+/// Add a case for each condition. Without a required share their failures are information, and such
+/// cases are skipped.
+void AddConditionCases(const sim::ConditionSummary& summary, JunitSuite& suite) {
+  for (const sim::ConditionResult& result : summary.results) {
+    const bool counts = result.applies && summary.required.has_value();
+    JunitOutcome outcome = result.passed() ? JunitOutcome::kPassed : JunitOutcome::kSkipped;
+    if (counts && !result.passed() && !summary.enough()) outcome = JunitOutcome::kFailed;
+    suite.cases.push_back({.name = "condition " + result.condition.name,
+                           .outcome = outcome,
+                           .message = std::string(plan::ReasonName(result.reason)),
+                           .text = result.detail});
+  }
+}
+
+}  // namespace
+
+JunitSuite MakeJunitSuite(const Report& report, const std::filesystem::path& folder) {
+  JunitSuite suite{report.plan_file, {}};
+  const auto failure = DescribeFailure(report);
+  for (const ReportStep& step : report.steps) {
+    const bool failed = failure && failure->entry == step.check.index;
+    suite.cases.push_back(
+        {.name = "step " + std::to_string(step.check.index) + " " + step.check.kind,
+         .outcome = OutcomeOf(VerdictName(step.verdict())),
+         .message = std::string(plan::ReasonName(step.reason())),
+         .text = JunitText(step.detail(), failed ? failure->why : "",
+                           failed ? failure->suggested_fix : ""),
+         .picture = step.frame.empty() ? "" : (folder / step.frame).string()});
+  }
+  if (report.trials) {
+    const bool enough = report.trials->enough();
+    suite.cases.push_back(
+        {.name = "trials",
+         .outcome = enough ? JunitOutcome::kPassed : JunitOutcome::kFailed,
+         .message = enough ? "" : kTrialsFailed,
+         .text = failure ? JunitText(failure->what, failure->why, failure->suggested_fix) : ""});
+  }
+  if (report.conditions) AddConditionCases(*report.conditions, suite);
+  return suite;
+}
+
+void SetCaseTimes(const std::vector<double>& seconds, JunitSuite& suite) {
+  const std::size_t count = std::min(seconds.size(), suite.cases.size());
+  for (std::size_t i = 0; i < count; ++i) suite.cases[i].seconds = seconds[i];
+}
+
+std::string FormatJunit(const std::vector<JunitSuite>& suites) {
+  std::vector<Element> elements;
+  for (const JunitSuite& suite : suites) elements.push_back(MakeSuite(suite));
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
+         Element("testsuites", {}, elements).Format() + "\n";
 }
 
 }  // namespace regrasp::report

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 
 namespace regrasp::report {

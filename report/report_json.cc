@@ -9,11 +9,10 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
+#include "report/goal_table.h"
 #include "report/report_table.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/world/motion_monitor.h"
 
 namespace regrasp::report {
@@ -405,6 +404,7 @@ Json ReportJson(const Report& report) {
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
   if (report.conditions) json["conditions"] = ConditionsJson(*report.conditions);
+  if (!report.goals.empty()) json["goals"] = GoalsJson(report.goals);
   json["weakest_step"] = IndexOrNull(report.weakest_step());
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();

@@ -7,7 +7,7 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "report/report.h"
-#include "sim/measure/weakest_finger.h"
+#include "sim/measure/disturbance.h"
 #include "sim/replay/disagreement.h"
 #include "sim/replay/replay.h"
 

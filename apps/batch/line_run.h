@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/batch/line_input.h"
 #include "apps/batch/line_output.h"
+#include "apps/batch/line_records.h"
 
 namespace regrasp::apps {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "planner/base/json.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/report.h"
+#include "report/report_table.h"
 
 namespace regrasp::apps {
 

@@ -67,7 +67,7 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
   for (const Eigen::Isometry3d& pose :
        start ? std::vector{start->pose} : StartsOf(in_hand, body, task, criteria)) {
     in_hand.start_pose = pose;
-    in_hand.goal_pose = GoalPose(task, body.centre(), pose);
+    in_hand.goal = GoalPose(task, body.centre(), pose);
     ways.push_back(in_hand);
   }
   return ways;

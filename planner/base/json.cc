@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/base/error.h"
-#include "planner/base/text_encoding.h"
+#include "planner/base/file.h"
 
 namespace regrasp {
 namespace {

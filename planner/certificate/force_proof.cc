@@ -6,7 +6,6 @@
 
 #include "planner/grasp/force_closure_core.h"
 #include "planner/grasp/grasp_forces.h"
-#include "planner/grasp/pair_line.h"
 #include "planner/grasp/unit_contacts.h"
 
 namespace regrasp::certificate {

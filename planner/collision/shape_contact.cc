@@ -6,9 +6,115 @@
 #include <limits>
 #include <utility>
 
-#include "planner/collision/hull_distance.h"
+#include "planner/collision/convex_shape.h"
 
 namespace regrasp::collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Distance within which points are identical, metres.
+constexpr double kSamePoint = 1e-9;
+
+/// Return the nearest point of a triangle (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
+Vector3d ClosestOnTriangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  const double d1 = ab.dot(p - a);
+  const double d2 = ac.dot(p - a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = ab.dot(p - b);
+  const double d4 = ac.dot(p - b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+  const double d5 = ab.dot(p - c);
+  const double d6 = ac.dot(p - c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  }
+  const double sum = va + vb + vc;
+  return a + vb / sum * ab + vc / sum * ac;
+}
+
+}  // namespace
+
+BallContact::BallContact(const object::Polyhedron& solid, double scale) {
+  for (const auto& [a, b, c] : solid.triangles()) {
+    Triangle triangle{
+        {scale * solid.vertices()[a], scale * solid.vertices()[b], scale * solid.vertices()[c]},
+        Vector3d::Zero(),
+        Vector3d::Zero(),
+        0};
+    const auto& corners = triangle.corners;
+    triangle.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+    for (const Vector3d& corner : triangle.corners) triangle.middle += corner / 3;
+    for (const Vector3d& corner : triangle.corners) {
+      triangle.radius = std::max(triangle.radius, (corner - triangle.middle).norm());
+    }
+    triangles_.push_back(triangle);
+  }
+}
+
+Vector3d BallContact::ClosestOn(int triangle, const Vector3d& point) const {
+  return ClosestOnTriangle(point, triangles_[triangle].corners);
+}
+
+std::vector<int> BallContact::Around(const Vector3d& centre, double reach) const {
+  std::vector<int> near;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const double limit = triangles_[i].radius + reach;
+    if ((triangles_[i].middle - centre).squaredNorm() <= limit * limit) {
+      near.push_back(static_cast<int>(i));
+    }
+  }
+  return near;
+}
+
+std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach) const {
+  return Find(centre, reach, Around(centre, reach));
+}
+
+std::vector<NearPoint> BallContact::Find(const Vector3d& centre, double reach,
+                                         const std::vector<int>& among) const {
+  struct Candidate {
+    NearPoint near;
+    const Triangle* triangle;
+  };
+  std::vector<Candidate> candidates;
+  for (const int index : among) {
+    const Triangle& triangle = triangles_[index];
+    const double limit = triangle.radius + reach;
+    if ((triangle.middle - centre).squaredNorm() > limit * limit) continue;
+    const Vector3d point = ClosestOnTriangle(centre, triangle.corners);
+    const double distance = (centre - point).norm();
+    if (distance > reach || distance < kSamePoint) continue;
+    const auto& [a, b, c] = triangle.corners;
+    if ((b - a).cross(c - a).dot(centre - a) <= 0) continue;
+    candidates.push_back({{point, (centre - point) / distance, distance}, &triangle});
+  }
+  std::ranges::sort(candidates, {}, [](const Candidate& c) { return c.near.distance; });
+  std::vector<NearPoint> found;
+  for (const Candidate& candidate : candidates) {
+    const Vector3d& point = candidate.near.point;
+    const bool known = std::ranges::any_of(found, [&](const NearPoint& other) {
+      return (other.point - point).squaredNorm() < kSamePoint * kSamePoint;
+    });
+    // A border point of a triangle is not a minimum if the adjacent triangle is nearer.
+    const bool minimum = std::ranges::none_of(candidates, [&](const Candidate& other) {
+      return other.near.distance < candidate.near.distance - kSamePoint &&
+             (ClosestOnTriangle(point, other.triangle->corners) - point).norm() < kSamePoint;
+    });
+    if (!known && minimum) found.push_back(candidate.near);
+  }
+  return found;
+}
+
 namespace {
 
 using Eigen::Vector3d;
@@ -46,6 +152,20 @@ PointPlace PlaceOf(const BallContact& surface, const Vector3d& point, double rad
   return place;
 }
 
+/// Return the triangles that points in a sphere can touch (PlaceOf).
+std::vector<int> NearSphere(const BallContact& surface, const BoundingSphere& sphere, double radius,
+                            const std::vector<int>& among) {
+  const double reach = sphere.radius + std::max(radius, kMostInside);
+  std::vector<int> near;
+  for (const int index : among) {
+    const double height = surface.normal(index).dot(sphere.centre - surface.corners(index)[0]);
+    if (std::abs(height) > reach) continue;
+    const Vector3d on_surface = surface.ClosestOn(index, sphere.centre);
+    if ((sphere.centre - on_surface).norm() <= reach) near.push_back(index);
+  }
+  return near;
+}
+
 void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
               const std::vector<int>& among, std::vector<SurfaceContact>& contacts) {
   const PointPlace place = PlaceOf(surface, point, radius, among);
@@ -60,18 +180,32 @@ void AddPoint(const BallContact& surface, const Vector3d& point, double radius,
   }
 }
 
+/// Add the contacts of the points of a node of the shape's tree.
+void AddPoints(const BallContact& surface, const TreeShape& shape, int index,
+               const std::vector<int>& among, std::vector<SurfaceContact>& contacts) {
+  const PointTree::Node& node = shape.points.nodes()[index];
+  const std::vector<int> near = NearSphere(surface, node.sphere, shape.radius, among);
+  if (near.empty()) return;
+  if (node.right != 0) {
+    AddPoints(surface, shape, index + 1, near, contacts);
+    AddPoints(surface, shape, node.right, near, contacts);
+    return;
+  }
+  for (const Vector3d& point : shape.points.PointsOf(node)) {
+    AddPoint(surface, point, shape.radius, near, contacts);
+  }
+}
+
 /// Return a contact if the hull of the points intersects the surface. It is along the line from the
 /// surface to the centre of the shape.
-std::optional<SurfaceContact> Overlap(const BallContact& surface, const ConvexShape& shape,
+std::optional<SurfaceContact> Overlap(const BallContact& surface, const TreeShape& shape,
                                       const std::vector<int>& among) {
-  const BoundingSphere around = BoundingSphereOf(shape);
+  const BoundingSphere around = BoundingSphereOf({shape.points.points(), shape.radius});
   const std::vector<NearPoint> found = surface.Find(around.centre, around.radius, among);
   if (found.empty()) return std::nullopt;
   const NearPoint& near = found.front();
-  double depth = 0;
-  for (const Vector3d& point : shape.points) {
-    depth = std::max(depth, near.outward.dot(near.point - point));
-  }
+  const Vector3d& deepest = Farthest(shape.points, -near.outward);
+  const double depth = std::max(0.0, near.outward.dot(near.point - deepest));
   return SurfaceContact{near.point, near.outward, -depth - shape.radius};
 }
 
@@ -91,20 +225,19 @@ std::vector<SurfaceContact> Thinned(std::vector<SurfaceContact> contacts) {
 
 }  // namespace
 
-std::vector<SurfaceContact> FindContacts(const BallContact& surface, const ConvexShape& shape,
+std::vector<SurfaceContact> FindContacts(const BallContact& surface, const TreeShape& shape,
                                          const std::vector<int>& among) {
   std::vector<SurfaceContact> contacts;
-  if (shape.points.size() == 1) {
-    for (const NearPoint& near : surface.Find(shape.points[0], shape.radius, among)) {
+  if (shape.points.points().size() == 1) {
+    const Vector3d& centre = shape.points.points().front();
+    for (const NearPoint& near : surface.Find(centre, shape.radius, among)) {
       if (near.distance < shape.radius) {
         contacts.push_back({near.point, near.outward, near.distance - shape.radius});
       }
     }
     return contacts;
   }
-  for (const Vector3d& point : shape.points) {
-    AddPoint(surface, point, shape.radius, among, contacts);
-  }
+  AddPoints(surface, shape, 0, among, contacts);
   double deepest = 0;
   for (const SurfaceContact& contact : contacts) deepest = std::min(deepest, contact.gap);
   // An additional contact exists only if another part of the shape is nearer than its points. If
@@ -117,19 +250,15 @@ std::vector<SurfaceContact> FindContacts(const BallContact& surface, const Conve
   return Thinned(std::move(contacts));
 }
 
-std::optional<SurfaceContact> FindNearest(const BallContact& surface, const ConvexShape& shape,
+std::optional<SurfaceContact> FindNearest(const BallContact& surface, const TreeShape& shape,
                                           double reach, const std::vector<int>& among) {
   std::optional<SurfaceContact> best;
   double nearest = reach;
   for (const int index : among) {
     const std::array<Vector3d, 3>& corners = surface.corners(index);
     const Vector3d& normal = surface.normal(index);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Vector3d& point : shape.points) {
-      lowest = std::min(lowest, normal.dot(point - corners[0]));
-    }
-    if (lowest >= nearest) continue;
-    const std::optional<NearestPair> pair = FindNearestPoints(shape.points, corners);
+    if (normal.dot(Farthest(shape.points, -normal) - corners[0]) >= nearest) continue;
+    const std::optional<NearestPair> pair = FindNearestPoints(shape.points, corners, nearest);
     if (!pair) return Overlap(surface, shape, among);
     const Vector3d between = pair->on_a - pair->on_b;
     const double distance = between.norm();

@@ -4,7 +4,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 
-#include "planner/collision/hull_distance.h"
+#include "planner/collision/convex_shape.h"
 
 namespace regrasp::collision {
 namespace {

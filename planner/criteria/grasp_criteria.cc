@@ -7,7 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/quality_filter.h"
+#include "planner/grasp/quality_rays.h"
 
 namespace regrasp::criteria {
 

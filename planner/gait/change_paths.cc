@@ -8,7 +8,6 @@
 #include "planner/gait/finger_path.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/object_motion.h"
-#include "planner/motion/contact_motion.h"
 #include "planner/motion/find_motion_proof.h"
 
 namespace regrasp::gait {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/object_motion.h"

@@ -43,13 +43,16 @@ std::string ProgressText(const GaitRequest& request, const GaitCounts& counts) {
   const double fraction =
       counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
   if (fraction == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
-  if (fraction == 1 && request.goal_pose && counts.at_goal == 0) {
+  if (fraction == 1 && request.goal && request.goal->facing() != nullptr && counts.at_goal == 0) {
+    return "the object comes near its goal, but no grasp is found that holds it there";
+  }
+  if (fraction == 1 && request.goal && counts.at_goal == 0) {
     return "the object comes near its goal pose, but no grasp is found that holds it there";
   }
   if (fraction == 1) return "every path to the goal is infeasible";
-  if (request.goal_pose) {
-    return "the object reaches " + FormatShort(100 * fraction, 3) +
-           " % of the path to its goal pose";
+  if (request.goal) {
+    return "the object reaches " + FormatShort(100 * fraction, 3) + " % of the path to its goal" +
+           (request.goal->pose() != nullptr ? " pose" : "");
   }
   return "the hand rotates the object by " +
          FormatShort(fraction * Degrees(request.turn.angle), 3) + " of " +
@@ -121,6 +124,25 @@ void CheckStartFingers(const GaitRequest& request) {
     throw std::invalid_argument(
         "start_fingers: must name one finger of the hand for each contact of the start grasp");
   }
+}
+
+/// Return the required joint configuration of each finger at the start; empty if any.
+/// @throws std::invalid_argument  if the joints are not those of the hand, or pose or fingers are
+///     missing.
+std::vector<JointConfiguration> StartConfigurations(const GaitRequest& request) {
+  std::vector<JointConfiguration> configurations;
+  if (request.start_joints.empty()) return configurations;
+  const std::vector<kinematics::Finger>& fingers = request.hand->fingers;
+  bool is_complete = request.start_pose && !request.start_fingers.empty() &&
+                     request.start_joints.size() == fingers.size();
+  for (std::size_t i = 0; is_complete && i < fingers.size(); ++i) {
+    is_complete = request.start_joints[i].size() == fingers[i].joints.size();
+    if (!is_complete) break;
+    configurations.push_back(kinematics::ConfigurationAt(fingers[i], request.start_joints[i]));
+  }
+  if (is_complete) return configurations;
+  throw std::invalid_argument(
+      "start_joints: requires start_pose, start_fingers and the angles of all joints");
 }
 
 /// Gap between a finger's reach and the object.
@@ -233,12 +255,15 @@ GaitResult FindGait(const GaitRequest& request) {
   CheckStartFingers(request);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   CheckReach(request, surface, request.start_pose, "start pose");
-  CheckReach(request, surface, request.goal_pose, "goal pose");
+  if (request.goal && request.goal->HasDefaultTolerance()) {
+    CheckReach(request, surface, request.goal->pose()->pose, "goal pose");
+  }
   GaitResult result;
   result.contacts = DrawContacts(request);
   request.progress("searching a gait");
-  const GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
-                      AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers};
+  GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
+                AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers};
+  ends.start_configurations = StartConfigurations(request);
   std::vector<SurfacePoint> points;
   for (const grasp::Contact& contact : result.contacts) {
     points.push_back({request.scale * contact.p, contact.n});

@@ -56,7 +56,7 @@ struct GaitResult {
 /// stance is force closure and meets the criteria if possible. Every path is certified (IsClear in
 /// finger_path.h).
 /// @throws std::invalid_argument  if start_fingers does not name one finger of the hand per contact
-///     of the start grasp.
+///     of the start grasp, or start_joints are not those of the hand.
 /// @throws InputError  if fewer than three fingers can touch the object at the start or goal pose
 ///     in any joint configuration.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);

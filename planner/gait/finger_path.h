@@ -6,7 +6,7 @@
 #include "planner/base/random.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_scene.h"
-#include "planner/kinematics/inverse_kinematics.h"
+#include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::gait {
 

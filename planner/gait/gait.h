@@ -55,6 +55,8 @@ struct GaitEnds {
   /// Fingers of the start and goal contacts, in contact order. Empty: any finger.
   std::vector<FingerIndex> start_fingers = {};
   std::vector<FingerIndex> goal_fingers = {};
+  /// Joint configuration [finger] at the start, with given start fingers. Empty: any.
+  std::vector<kinematics::JointConfiguration> start_configurations = {};
 };
 
 /// Return whether each contact is assigned to the required finger; true if none is required.

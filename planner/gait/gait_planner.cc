@@ -10,6 +10,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/gait/find_gait.h"
+#include "planner/gait/goal_list.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/request.h"
 #include "planner/gait/schedule.h"
@@ -125,14 +126,33 @@ std::vector<planning::StaticGrasp> StaticGraspsOf(const plan::Plan& plan) {
   return grasps;
 }
 
+/// Find a plan for the goal of a request, or for its list of goals.
+GoalListResult FindPlan(const GaitRequest& request) {
+  if (!request.goals.empty()) return FindPlanThroughGoals(request);
+  GaitResult found = FindGait(request);
+  GoalListResult result{std::nullopt, std::move(found.execution), std::move(found.message)};
+  if (found.gait) result.plan = PlanOf(*found.gait, request, found.contacts);
+  return result;
+}
+
+/// Example: "goals: a after step 3, b after step 9".
+std::string GoalsText(const std::vector<plan::GoalMark>& goals) {
+  std::string text;
+  for (const plan::GoalMark& goal : goals) {
+    text +=
+        (text.empty() ? "goals: " : ", ") + goal.name + " after step " + std::to_string(goal.step);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ExplainGait(const GaitRequest& request) {
   const bool with_actuators = IsLimitedByActuators(request);
   kinematics::HandModel tilted;
   std::vector<Relaxation> relaxations = {MoreFriction(), OtherSize()};
-  const bool is_upright = !request.start_pose && !request.goal_pose &&
-                          request.start_grasp.empty() && request.goal_grasp.empty();
+  const bool is_upright = !request.start_pose && !request.goal && request.start_grasp.empty() &&
+                          request.goal_grasp.empty();
   if (is_upright) relaxations.push_back(TiltedPalm(tilted));
   // Try the smallest change of every relaxation first, so that all share the time.
   const auto most = std::ranges::max(
@@ -181,14 +201,17 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
                      ": requires simulated plans, cannot be used with --robustness none");
   }
   const auto time = request.deadline.left();
-  const GaitResult found = FindGait(request);
+  const bool explains = asked.parameters.Get<planning::SearchParameters>().explain;
+  if (explains && !request.goals.empty()) {
+    throw InputError(std::string(planning::kExplainOption) + ": cannot be used with --goals");
+  }
+  GoalListResult found = FindPlan(request);
   PlanResult result;
-  if (!found.gait) {
+  if (!found.plan) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
     if (found.execution && !found.execution->is_cut_short) result.trial = found.execution->reason;
     if (request.deadline.IsOver()) result.message += "; time limit reached";
-    const bool explains = asked.parameters.Get<planning::SearchParameters>().explain;
     if (explains) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);
@@ -196,13 +219,13 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     // A message has at most one help part, at its end.
     if (found.execution) {
       result.message += "; help: --robustness preferred writes the best plan anyway";
-    } else if (!explains) {
+    } else if (!explains && request.goals.empty()) {
       result.message +=
           "; help: --explain searches for a friction, an object size and a palm tilt that help";
     }
     return result;
   }
-  result.plan = PlanOf(*found.gait, request, found.contacts);
+  result.plan = std::move(found.plan);
   if (found.execution && found.execution->is_whole) {
     result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
                            FormatShort(std::floor(100 * found.execution->tolerance_margin)) +
@@ -215,6 +238,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
         FailureText(*found.execution, result.plan->steps.size()) + "; help: validate --hand " +
         (is_failure ? "shows the failure" : "completes the simulation"));
   }
+  if (!request.goals.empty()) result.notes.push_back(GoalsText(result.plan->hand->goals));
   const std::vector<planning::StaticGrasp> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
   result.margin = planning::SmallestMargin(grasps, evaluator);
@@ -227,7 +251,8 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
 void AskInHand(const planning::InHandTask& task, PlanRequest& request) {
   planning::InHandTask& own = request.parameters.Edit<GaitParameters>().task.emplace(task);
   // For a change of grasp without a given goal pose, the object keeps its pose.
-  if (task.turn.angle == 0 && !task.goal_pose) own.goal_pose = task.start_pose;
+  const bool moves = task.turn.angle != 0 || task.goal || !task.goals.empty();
+  if (!moves && task.start_pose) own.goal.emplace(*task.start_pose);
   // The hand file does not define the contact model; a request for soft fingers must still be
   // rejected.
   const double torsion = request.hand.torsion;

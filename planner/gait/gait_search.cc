@@ -109,6 +109,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotio
       grid_(grid),
       start_(ends.start),
       start_fingers_(ends.start_fingers),
+      start_configurations_(ends.start_configurations),
       goal_(ends.goal, setup.points),
       max_holding_(static_cast<int>(std::max(
           {static_cast<std::size_t>(kFewestHolding), ends.start.size(), ends.goal.size()}))),
@@ -125,7 +126,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotio
           [this](int node, const ContactAssignment& assignment) {
             return grid_.IsGoal(node) && goal_.IsHeldBy(assignment);
           },
-          !ends.start.empty()),
+          !ends.start.empty() && ends.start_configurations.empty()),
       simulation_(grid, tree_) {
   counts_.steps = grid.steps();
   if (ends.goal.empty()) return;
@@ -251,12 +252,26 @@ void GaitSearch::AddGivenStart() {
   ForEachAssignment(start_, setup_.scene.finger_count(), [&](ContactAssignment assignment) {
     if (!AreHeldBy(start_fingers_, start_, assignment)) return;
     Stance stance{std::move(assignment)};
+    UseStartConfigurations(stance);
     if (checker_.PlaceIdleFingers(stance, grid_.start(), &random_)) {
       Add({.stance = std::move(stance), .node = grid_.start()});
     } else {
       ++counts_.colliding;
     }
   });
+}
+
+void GaitSearch::UseStartConfigurations(Stance& stance) {
+  if (start_configurations_.empty()) return;
+  stance.idle.resize(stance.assignment.size());
+  for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
+    const JointConfiguration& configuration = start_configurations_[finger];
+    if (const int point = stance.assignment[finger]; point == kNone) {
+      stance.idle[finger] = configuration;
+    } else {
+      checker_.reach().Set(finger, point, grid_.start(), configuration);
+    }
+  }
 }
 
 void GaitSearch::AddInitialStances() {

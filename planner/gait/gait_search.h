@@ -13,7 +13,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/change_paths.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/gait.h"
@@ -206,6 +206,8 @@ class GaitSearch {
   [[nodiscard]] int farthest() const { return std::min(reached_, simulation_.FarthestTrusted()); }
   void AddInitialStances();
   void AddGivenStart();
+  /// Give a stance at the start the required joint configurations, if there are any.
+  void UseStartConfigurations(Stance& stance);
   void Expand(int index);
   /// Queue the best successors of a stance at one grid node.
   /// @returns whether any was queued.
@@ -242,6 +244,7 @@ class GaitSearch {
   const PoseGrid& grid_;
   std::vector<int> start_;  ///< contacts of the start grasp; empty: any
   std::vector<FingerIndex> start_fingers_;
+  std::vector<JointConfiguration> start_configurations_;  ///< [finger]; empty: any
   GoalGrasp goal_;
   int max_holding_;
   criteria::GraspMemory& memory_;

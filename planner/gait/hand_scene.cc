@@ -195,6 +195,11 @@ const JointConfiguration* ReachMap::Find(FingerIndex finger, int point, int node
   return cached.configuration ? &*cached.configuration : nullptr;
 }
 
+void ReachMap::Set(FingerIndex finger, int point, int node,
+                   const JointConfiguration& configuration) {
+  CachedAt(finger, point, node) = {configuration, -1};
+}
+
 bool ReachMap::CanFollow(FingerIndex finger, int point, int node, int neighbour) {
   const JointConfiguration* from = Find(finger, point, node);
   const JointConfiguration* to = Find(finger, point, neighbour);

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
+#include "planner/collision/shape_contact.h"
 #include "planner/collision/surface_tree.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
-#include "planner/kinematics/inverse_kinematics.h"
 
 namespace regrasp::gait {
 
@@ -150,6 +149,9 @@ class ReachMap {
   /// @returns pointer valid for the lifetime of this object; null if the finger does not reach the
   ///     contact.
   [[nodiscard]] const JointConfiguration* Find(FingerIndex finger, int point, int node);
+
+  /// Set the joint configuration of a finger at a contact and a grid node.
+  void Set(FingerIndex finger, int point, int node, const JointConfiguration& configuration);
 
   /// Return whether a finger keeps its contact between adjacent grid nodes.
   /// The joint configuration must be continuous.

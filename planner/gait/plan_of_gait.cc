@@ -60,6 +60,15 @@ plan::Align SlideOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
   return align;
 }
 
+/// Mark the goal of the request in a plan, unless it is the final pose with the default tolerance.
+void MarkGoal(const Gait& gait, const GaitRequest& request, plan::Plan& plan) {
+  const ObjectTask task(request.scale * request.solid->mass_properties().centroid, request.turn,
+                        request.goal, request.turn_tolerance);
+  const auto goal = task.GoalFrom(gait.start.pose);
+  if (!goal || goal->HasDefaultTolerance()) return;
+  plan.hand->goals.push_back({"", static_cast<int>(plan.steps.size()), *goal});
+}
+
 /// Return whether a segment belongs to the same plan step as the previous one.
 /// True if a finger is placed and then another one is released.
 bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
@@ -136,6 +145,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
     }
   }
   plan.goal = plan::ContactsOf(GraspAtEnd(plan));
+  MarkGoal(gait, request, plan);
   return plan;
 }
 

@@ -13,6 +13,9 @@ namespace {
 constexpr double kTurnStep = 0.06;    // radians
 constexpr double kShiftStep = 0.004;  // metres
 
+/// Rotations about the direction of a facing goal, radians.
+constexpr std::array kTwists = {Radians(45), -Radians(45), Radians(90), -Radians(90), Radians(180)};
+
 constexpr double kShift = 0.008;  // metres
 constexpr double kTilt = 0.15;    // radians
 /// Maximum number of units of an offset.
@@ -24,21 +27,59 @@ int Units(const Offset& offset) {
                                [](int units) { return std::abs(units); });
 }
 
+PoseTrack InShortSteps(const PoseTrack& track) {
+  if (track.steps() == 0) return track;
+  const double steps =
+      std::max(std::abs(track.turn().angle) / kTurnStep, track.shift().norm() / kShiftStep);
+  return track.InSteps(std::max(1, static_cast<int>(std::ceil(steps))));
+}
+
 }  // namespace
 
-PoseTrack ObjectTask::From(const Eigen::Isometry3d& start, int steps) const {
-  if (!goal_) return {start, centre_, turn_, Eigen::Vector3d::Zero(), turn_.angle == 0 ? 0 : steps};
-  const Eigen::AngleAxisd turn(start.linear().transpose() * goal_->linear());
-  const Eigen::Vector3d shift = *goal_ * centre_ - start * centre_;
+std::optional<plan::GoalSet> ObjectTask::GoalFrom(const Eigen::Isometry3d& start) const {
+  if (goal_ || !turn_tolerance_) return goal_;
+  const PoseTrack whole(start, centre_, turn_, Eigen::Vector3d::Zero(), 1);
+  return plan::GoalSet(plan::PoseGoal{whole.PoseAt(1), *turn_tolerance_, centre_});
+}
+
+PoseTrack ObjectTask::To(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
+                         int steps) const {
+  const Eigen::AngleAxisd turn(start.linear().transpose() * end.linear());
+  const Eigen::Vector3d shift = end * centre_ - start * centre_;
   const bool stays = turn.angle() == 0 && shift.isZero(0);
   return {start, centre_, {turn.axis(), turn.angle()}, shift, stays ? 0 : steps};
 }
 
+PoseTrack ObjectTask::From(const Eigen::Isometry3d& start, int steps) const {
+  if (goal_) {
+    const plan::GoalSet inner = goal_->Shrunk(kGoalDepth.length, kGoalDepth.angle);
+    return To(start, inner.Nearest(start, centre_), steps);
+  }
+  Turn turn = turn_;
+  if (turn_tolerance_) {
+    const double shorter = std::max(0.0, turn_tolerance_->angle - kGoalDepth.angle);
+    turn.angle = std::copysign(std::max(0.0, std::abs(turn.angle) - shorter), turn.angle);
+  }
+  return {start, centre_, turn, Eigen::Vector3d::Zero(), turn.angle == 0 ? 0 : steps};
+}
+
 PoseTrack ObjectTask::From(const Eigen::Isometry3d& start) const {
-  const PoseTrack track = From(start, 1);
-  const double steps =
-      std::max(std::abs(track.turn().angle) / kTurnStep, track.shift().norm() / kShiftStep);
-  return From(start, std::max(1, static_cast<int>(std::ceil(steps))));
+  return InShortSteps(From(start, 1));
+}
+
+std::vector<PoseTrack> ObjectTask::Tracks(const Eigen::Isometry3d& start) const {
+  std::vector<PoseTrack> tracks = {From(start)};
+  const plan::FacingGoal* facing = goal_ ? goal_->facing() : nullptr;
+  if (facing == nullptr) return tracks;
+  const Eigen::Isometry3d nearest = tracks.front().PoseAt(tracks.front().steps());
+  for (const double twist : kTwists) {
+    Eigen::Isometry3d end = nearest;
+    end.linear() =
+        Eigen::AngleAxisd(twist, facing->direction).toRotationMatrix() * nearest.linear();
+    end.translation() = nearest * centre_ - end.linear() * centre_;
+    tracks.push_back(InShortSteps(To(start, end, 1)));
+  }
+  return tracks;
 }
 
 PoseGrid::Offsets::Offsets(int dimensions) {
@@ -85,6 +126,15 @@ PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
   axes_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
 }
 
+PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, const plan::GoalSet& goal)
+    : PoseGrid(track, up, End::kSet) {
+  goal_ = goal.Shrunk(kGoalDepth.length, kGoalDepth.angle);
+  first_goal_step_ = steps();
+  while (first_goal_step_ > 0 && goal_->Contains(track.PoseAt(first_goal_step_ - 1))) {
+    --first_goal_step_;
+  }
+}
+
 PoseGrid PoseGrid::Reversed() const {
   PoseGrid reversed = *this;
   reversed.track_ = track_.Reversed();
@@ -96,9 +146,14 @@ int PoseGrid::OffTrack(int node) const { return Units(OffsetOf(node)); }
 
 bool PoseGrid::IsGoal(int node) const {
   if (node == goal()) return true;
+  if (end_ == End::kSet) return IsInGoal(node);
   const Offset& offset = OffsetOf(node);
   return end_ == End::kOrientation && StepOf(node) == steps() && offset[3] == 0 && offset[4] == 0 &&
          offset[5] == 0;
+}
+
+bool PoseGrid::IsInGoal(int node) const {
+  return StepOf(node) >= first_goal_step_ && goal_->Contains(PoseAt(node));
 }
 
 Eigen::Isometry3d PoseGrid::PoseAt(int node) const {

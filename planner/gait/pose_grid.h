@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/plan/goal_set.h"
 #include "planner/planning/in_hand_task.h"
 
 namespace regrasp::gait {
@@ -40,6 +41,10 @@ class PoseTrack {
     return pose;
   }
 
+  /// Return the same motion in another number of steps.
+  [[nodiscard]] PoseTrack InSteps(int steps) const {
+    return {start_, centre_, turn_, shift_, steps};
+  }
   /// Return the track from the same start in the opposite direction.
   [[nodiscard]] PoseTrack Backwards() const {
     return {start_, centre_, {turn_.axis, -turn_.angle}, -shift_, steps_};
@@ -59,29 +64,44 @@ class PoseTrack {
   int steps_;
 };
 
-/// Required motion of the object from any start: a rotation about its centre or a goal pose.
+/// Distance by which tracks end inside a goal set, if its tolerances permit.
+/// Simulated execution displaces the object by a few tenths of a millimetre and of a degree.
+inline constexpr plan::PoseTolerance kGoalDepth = {2e-3, Radians(2)};
+
+/// Required motion of the object from any start: a rotation about its centre or a goal set.
 class ObjectTask {
  public:
   /// @param centre  centre of rotation in the object's frame, metres.
   /// @param turn  rotation; ignored if there is a goal.
-  /// @param goal  goal pose in the palm's frame.
+  /// @param goal  poses in the palm's frame.
+  /// @param turn_tolerance  planning::InHandTask::turn_tolerance.
   ObjectTask(const Eigen::Vector3d& centre, const Turn& turn,
-             const std::optional<Eigen::Isometry3d>& goal)
-      : centre_(centre), turn_(turn), goal_(goal) {}
+             const std::optional<plan::GoalSet>& goal,
+             const std::optional<plan::PoseTolerance>& turn_tolerance = {})
+      : centre_(centre), turn_(turn), goal_(goal), turn_tolerance_(turn_tolerance) {}
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
-  [[nodiscard]] const std::optional<Eigen::Isometry3d>& goal() const { return goal_; }
+  /// Return the goal set from a start; nullopt for a turn without tolerance.
+  [[nodiscard]] std::optional<plan::GoalSet> GoalFrom(const Eigen::Isometry3d& start) const;
 
-  /// Return the track from a start; a single pose if nothing moves.
-  /// Steps are at most 0.06 rad and 4 mm.
+  /// Return the track from a start to the goal set; a single pose if nothing moves.
+  /// It ends kGoalDepth inside the set. Steps are at most 0.06 rad and 4 mm.
   [[nodiscard]] PoseTrack From(const Eigen::Isometry3d& start) const;
   /// Return the track from a start in the given number of steps; a single pose if nothing moves.
   [[nodiscard]] PoseTrack From(const Eigen::Isometry3d& start, int steps) const;
+  /// Return tracks from a start to different poses of the goal set, shortest first.
+  /// For a facing goal they differ by rotations about its direction.
+  [[nodiscard]] std::vector<PoseTrack> Tracks(const Eigen::Isometry3d& start) const;
 
  private:
+  /// Return the track to a pose in one step; a single pose if nothing moves.
+  [[nodiscard]] PoseTrack To(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
+                             int steps) const;
+
   Eigen::Vector3d centre_;
   Turn turn_;
-  std::optional<Eigen::Isometry3d> goal_;
+  std::optional<plan::GoalSet> goal_;
+  std::optional<plan::PoseTolerance> turn_tolerance_;
 };
 
 /// Discrete object poses: those of a track, and offsets from them.
@@ -95,9 +115,14 @@ class PoseGrid {
   enum class End {
     kPose,         ///< the last pose of the track
     kOrientation,  ///< the last orientation of the track, at any offset in position
+    kSet,          ///< a pose of a goal set
   };
   /// @param up  upward direction in the palm's frame; tilt axes are perpendicular to it.
+  /// @param end  kPose or kOrientation.
   PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end);
+  /// Create a grid that ends in a goal set.
+  /// @param goal  set that contains the last pose of the track.
+  PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, const plan::GoalSet& goal);
 
   [[nodiscard]] int size() const { return (track_.steps() + 1) * offsets(); }
   [[nodiscard]] int steps() const { return track_.steps(); }
@@ -144,11 +169,16 @@ class PoseGrid {
     std::vector<std::vector<int>> beside;  ///< adjacent offsets [offset], which differ by one unit
   };
   [[nodiscard]] static const Offsets& OffsetsBeside(const PoseTrack& track);
+  [[nodiscard]] bool IsInGoal(int node) const;
   [[nodiscard]] int offsets() const { return static_cast<int>(offsets_->all.size()); }
   [[nodiscard]] const Offset& OffsetOf(int node) const { return offsets_->all[node % offsets()]; }
 
   PoseTrack track_;
   End end_;
+  std::optional<plan::GoalSet> goal_;  ///< for kSet
+  /// First step from which on the whole track is in the goal set. Earlier nodes are not goals: a
+  /// full rotation begins in its goal set.
+  int first_goal_step_ = 0;
   Eigen::Matrix3d axes_;    ///< columns: two horizontal axes, up
   const Offsets* offsets_;  ///< shared by all grids with one pose, and by all others
 };

@@ -9,7 +9,7 @@
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/request.h"
-#include "planner/kinematics/inverse_kinematics.h"
+#include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/plan.h"
 #include "planner/sampling/surface_sampler.h"
 

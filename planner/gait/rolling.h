@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "planner/collision/ball_contact.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/collision/shape_contact.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/finger_path.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/object_motion.h"

@@ -99,7 +99,7 @@ using Schedule = std::vector<Attempt>;
 
 /// Return the schedules in order of priority.
 std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
-  const bool is_short_turn = !request.goal_pose && std::abs(request.turn.angle) <= kShortTurn;
+  const bool is_short_turn = !request.goal && std::abs(request.turn.angle) <= kShortTurn;
   const std::span<const RobustnessMargins> whole =
       is_short_turn ? std::span<const RobustnessMargins>(kShortTurnMargins)
                     : std::span(&kRolling.front(), 1);
@@ -292,8 +292,8 @@ MultiStartSearch::MultiStartSearch(const GaitRequest& request, std::vector<Searc
       terms_(std::move(terms)),
       ends_(std::move(ends)),
       random_(request.seed, RandomUse::kHomes),
-      task_(request.scale * request.solid->mass_properties().centroid, request.turn,
-            request.goal_pose) {}
+      task_(request.scale * request.solid->mass_properties().centroid, request.turn, request.goal,
+            request.turn_tolerance) {}
 
 std::optional<Gait> MultiStartSearch::Search() {
   while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
@@ -341,12 +341,12 @@ MultiStartSearch::Start* MultiStartSearch::Next() {
 
 bool MultiStartSearch::OpenNextStart() {
   while (true) {
-    if (initial_poses_.empty()) {
-      if (!DrawInitialPoses()) return false;
+    if (tracks_.empty()) {
+      if (!DrawTracks()) return false;
       continue;
     }
-    const PoseTrack track = task_.From(initial_poses_.back());
-    initial_poses_.pop_back();
+    const PoseTrack track = tracks_.back();
+    tracks_.pop_back();
     auto start = std::make_unique<Start>(
         Start{terms_[opened_++ % terms_.size()],
               RandomStream(request_.seed, RandomUse::kGaits, starts_.size())});
@@ -363,33 +363,45 @@ std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& trac
   const HandSetup& setup = terms.setup;
   std::optional<IdleConfigurations> idle_configurations =
       FindIdleConfigurations(setup, track, random_);
+  // Idle fingers of a given start state may have to move out of the way on the track.
+  if (!idle_configurations && !request_.start_joints.empty()) {
+    idle_configurations = FindIdleConfigurations(setup, track.InSteps(0), random_);
+  }
   if (!idle_configurations) return nullptr;
-  const bool is_turn = !request_.goal_pose && track.steps() > 0;
+  const bool is_turn = !request_.goal && track.steps() > 0;
   // Contacts roll, and edges are simulated, in the direction of time only.
   const bool is_one_directional = setup.rolled_on != nullptr || terms.simulate;
-  const bool may_begin_anywhere = is_turn && !request_.start_pose && ends_.start.empty() &&
-                                  ends_.goal.empty() && !is_one_directional;
+  const bool may_begin_anywhere = is_turn && !request_.turn_tolerance && !request_.start_pose &&
+                                  ends_.start.empty() && ends_.goal.empty() && !is_one_directional;
   if (may_begin_anywhere) {
     if (auto backward = FindIdleConfigurations(setup, track.Backwards(), random_)) {
       return std::make_unique<TurnSearch>(setup, track, *std::move(idle_configurations),
                                           *std::move(backward), terms.memory, random);
     }
   }
-  const PoseGrid grid(track, setup.scene.hand().up,
-                      is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
+  const Eigen::Vector3d& up = setup.scene.hand().up;
+  const auto goal = task_.GoalFrom(track.PoseAt(0));
+  const PoseGrid grid =
+      goal && !goal->HasDefaultTolerance()
+          ? PoseGrid(track, up, *goal)
+          : PoseGrid(track, up, is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
   return std::make_unique<BidirectionalSearch>(setup, grid, *std::move(idle_configurations), ends_,
                                                terms.memory, random, terms.simulate);
 }
 
-bool MultiStartSearch::DrawInitialPoses() {
+bool MultiStartSearch::DrawTracks() {
   if (++drawings_ > (request_.start_pose ? 1 : kPoseDrawings)) return false;
   if (request_.start_pose) {
-    initial_poses_.assign(terms_.size(), *request_.start_pose);
-    return true;
+    for (const PoseTrack& track : task_.Tracks(*request_.start_pose)) {
+      tracks_.insert(tracks_.end(), terms_.size(), track);
+    }
+  } else {
+    const SearchTerms& first = terms_.front();
+    for (const auto& pose : FindInitialPoses(first.setup, task_, ends_, first.memory, random_)) {
+      tracks_.push_back(task_.From(pose));
+    }
   }
-  const SearchTerms& first = terms_.front();
-  initial_poses_ = FindInitialPoses(first.setup, task_, ends_, first.memory, random_);
-  std::ranges::reverse(initial_poses_);
+  std::ranges::reverse(tracks_);
   return true;
 }
 

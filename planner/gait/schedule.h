@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/hand_scene.h"
@@ -59,16 +59,17 @@ class MultiStartSearch {
   /// Create the search along a track; null if a finger has no idle posture.
   std::unique_ptr<StartSearch> SearchAlong(const PoseTrack& track, const SearchTerms& terms,
                                            RandomStream& random);
-  /// Draw initial poses.
+  /// Draw initial poses, each with a track to the goal.
+  /// From a given start pose, all tracks of the task.
   /// @returns false if the number of draws is exhausted.
-  bool DrawInitialPoses();
+  bool DrawTracks();
 
   const GaitRequest& request_;
   std::vector<SearchTerms> terms_;
   GaitEnds ends_;
   RandomStream random_;
   ObjectTask task_;
-  std::vector<Eigen::Isometry3d> initial_poses_;  ///< unused poses, best last
+  std::vector<PoseTrack> tracks_;  ///< unused tracks from initial poses, best last
   int drawings_ = 0;
   std::size_t opened_ = 0;  ///< number of used poses
   std::vector<std::unique_ptr<Start>> starts_;

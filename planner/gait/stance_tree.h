@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/change_paths.h"
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_scene.h"

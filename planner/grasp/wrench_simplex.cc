@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "planner/grasp/cone_support.h"
-#include "planner/lp/uneven_weight.h"
+#include "planner/lp/simplex.h"
 
 namespace regrasp::grasp {
 namespace {

@@ -1,5 +1,3 @@
-#include "planner/kinematics/convert_mjcf.h"
-
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -12,8 +10,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/kinematics/missing_meshes.h"
-#include "planner/kinematics/mjcf_defaults.h"
+#include "planner/kinematics/model_text.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

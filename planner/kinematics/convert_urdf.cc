@@ -1,5 +1,3 @@
-#include "planner/kinematics/convert_urdf.h"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -7,7 +5,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/kinematics/missing_meshes.h"
+#include "planner/kinematics/model_text.h"
 
 namespace regrasp::kinematics {
 namespace {

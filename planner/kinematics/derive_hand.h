@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/hand_model.h"
 
 namespace regrasp::kinematics {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "planner/grasp/convex_hull.h"
+#include "planner/grasp/growing_hull.h"
 #include "planner/kinematics/derive_couplings.h"
 #include "planner/lp/simplex.h"
 

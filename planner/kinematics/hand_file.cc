@@ -9,12 +9,10 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/kinematics/check_model.h"
 #include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/fit_tip.h"
-#include "planner/kinematics/hand_description.h"
-#include "planner/kinematics/joint_actuators.h"
+#include "planner/kinematics/hand_model.h"
 #include "planner/kinematics/mujoco_model.h"
 
 namespace regrasp::kinematics {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "planner/kinematics/hand_description.h"
 #include "planner/kinematics/hand_model.h"
 
 namespace regrasp::kinematics {
@@ -19,7 +18,7 @@ struct HandFile {
   /// it.
   std::shared_ptr<const CompiledModel> compiled;
   HandModel hand;
-  std::vector<std::string> warnings;  ///< ActuationWarnings (joint_actuators.h)
+  std::vector<std::string> warnings;  ///< ActuationWarnings (derive_couplings.h)
 };
 
 /// Read a hand: a file `hand.json` (docs/formats.md) and its MJCF or URDF model.
@@ -31,7 +30,7 @@ struct HandFile {
 /// fingertip's body are part of the fingertip.
 /// @throws InputError  if the model cannot be compiled, a body or joint is missing, fingers share a
 ///     joint, a joint is not revolute or has no limits, or the model's physics, couplings or
-///     collision geoms cannot be represented (check_model.h). The message names the file and the
+///     collision geoms cannot be represented (hand_model.h). The message names the file and the
 ///     element.
 [[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/base/index.h"
@@ -80,5 +81,64 @@ struct HandModel {
 
 /// Joint configuration of a finger: angle of each independent joint, radians.
 using JointConfiguration = Eigen::VectorXd;
+
+/// Contents of `hand.json`: roles of the model's bodies, and the fingertip spheres.
+/// The format is in docs/formats.md.
+/// Lengths are in metres, in the frames of the model's bodies.
+struct HandDescription {
+  struct Tip {
+    std::string name;  ///< name of the finger
+    std::string body;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius = 0;
+  };
+  /// Coupling: angle of `joint` = ratio · angle of `follows` + offset, radians.
+  struct Coupling {
+    std::string joint;
+    std::string follows;
+    double ratio = 1;
+    double offset = 0;
+  };
+
+  std::string name;
+  std::string model;  ///< file of the model, relative to the hand's file
+  std::string palm;   ///< name of the body
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector in the palm's frame
+  std::vector<Tip> tips;
+  std::vector<Coupling> couplings;
+};
+
+/// Parse the text of a hand's file.
+/// @param name  name of the file in messages.
+/// @throws InputError  if the text is not a hand description.
+[[nodiscard]] HandDescription ParseHandDescription(std::string_view text, const std::string& name);
+
+/// Format a description as the text of a file. Equal descriptions give equal bytes.
+[[nodiscard]] std::string FormatHandDescription(const HandDescription& description);
+
+struct CompiledModel;
+
+/// Check that a model has exactly the physics that the replay assumes.
+/// These are gravity, joints with their limits and springs, and actuators of joints.
+///
+/// Flags and options that change only how a step is computed are accepted.
+/// @throws InputError  if a flag disables a part of the physics (gravity, limits, equality, …) or
+///     overrides contact parameters; if wind, density or viscosity is not 0, or if an actuator
+///     moves no joint (adhesion, site, slider-crank). The message names the model's file and the
+///     element.
+void CheckPhysics(const CompiledModel& compiled);
+
+/// Check that a hand has all couplings that its model imposes (joint_relations.h).
+/// @param file  name of the hand's file in messages.
+/// @throws InputError  as ReadJointRelations, and if a coupling of the model is missing or differs.
+void CheckCouplings(const HandModel& hand, const std::string& palm, const CompiledModel& compiled,
+                    const std::string& file);
+
+/// Check that the palm and the fingertips have colliding geoms that contain the fingertip spheres.
+/// Every point of a fingertip sphere must be within 5 mm of the convex hull of its link's geoms.
+/// @param file  name of the hand's file in messages.
+/// @throws InputError  if not; the message names the body and the distance.
+void CheckCollisionGeoms(const HandDescription& description, const CompiledModel& compiled,
+                         const std::string& file);
 
 }  // namespace regrasp::kinematics

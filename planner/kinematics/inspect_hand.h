@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/kinematics/hand_description.h"
+#include "planner/kinematics/derive_couplings.h"
 #include "planner/kinematics/hand_model.h"
 #include "planner/kinematics/hand_visuals.h"
-#include "planner/kinematics/joint_actuators.h"
 #include "planner/kinematics/model_text.h"
 
 namespace regrasp::kinematics {

@@ -83,12 +83,106 @@ struct ModelText {
 /// Read an MJCF or URDF model and convert it to the linked MuJoCo version.
 /// The includes of an MJCF model are read, too.
 ///
-/// Elements that affect the hand are converted (convert_mjcf.h, convert_urdf.h). Elements that
+/// Elements that affect the hand are converted (ConvertMjcf, ConvertUrdf). Elements that
 /// affect neither its motion nor its visuals are removed. All conversions are listed. A model that
 /// requires no conversion keeps its text except for the layout.
 /// @throws InputError  if the file is not XML, is neither MJCF nor URDF, includes itself, or has an
 ///     element that cannot be converted (replicate, attach) or unexpanded xacro. The message names
 ///     the file and line.
 [[nodiscard]] ModelText ReadModelText(const std::filesystem::path& path);
+
+/// Default classes of an MJCF model, which define attributes that elements omit.
+class MjcfDefaults {
+ public:
+  /// Name of the root class.
+  static constexpr char kMain[] = "main";
+
+  /// @param root  root element; outlives this object and does not move its elements.
+  explicit MjcfDefaults(const XmlElement& root);
+
+  /// Return the class of an element: its own, otherwise `otherwise`.
+  [[nodiscard]] static std::string ClassOf(const XmlElement& element, const std::string& otherwise);
+
+  /// Return an attribute of an element; nullptr if there is none.
+  /// If the element omits it, its class and the ancestors of the class are searched.
+  /// @param tags  element names of the classes that can have the attribute.
+  [[nodiscard]] const std::string* Find(const XmlElement& element, const std::string& default_class,
+                                        const std::vector<const char*>& tags,
+                                        const std::string& attribute) const;
+
+ private:
+  struct DefaultClass {
+    std::string parent;
+    std::vector<const XmlElement*> elements;
+  };
+  void Add(const XmlElement& element, const std::string& parent);
+
+  std::map<std::string, DefaultClass> classes_;
+};
+
+/// Return why a file cannot be read as a mesh; empty if it is a file with contents.
+[[nodiscard]] std::string WhyMeshIsMissing(const std::filesystem::path& path);
+
+/// Location of the meshes of an MJCF model.
+struct MeshPaths {
+  std::filesystem::path folder;
+  bool strips_path = false;  ///< whether folders in a mesh's file name are ignored
+
+  [[nodiscard]] std::filesystem::path PathOf(const std::string& file) const {
+    const std::filesystem::path path(file);
+    return folder / (strips_path ? path.filename() : path);
+  }
+};
+
+/// Remove missing or empty meshes from an MJCF model, together with the geoms that only show them.
+/// These geoms neither collide nor have mass. Each removed geom is listed as a conversion.
+/// @throws InputError  if a geom with such a mesh collides or has mass. The message names the line
+///     and the file.
+void DropMissingVisuals(const MeshPaths& paths, ModelText& text);
+
+/// Convert MJCF of a newer MuJoCo version to the linked version, and list its mesh files.
+/// Elements and attributes that the linked version's schema (MujocoSchema) lacks are converted:
+///
+/// | found | becomes |
+/// | --- | --- |
+/// | integrator implicitfast | implicit |
+/// | ccd_iterations, ccd_tolerance | mpr_iterations, mpr_tolerance |
+/// | compiler assetdir | meshdir and texturedir |
+/// | no autolimits (true in newer versions) | autolimits true, if an element has a range |
+/// | position kv, timeconst | general with gainprm, biasprm "0 −kp −kv", a filter |
+/// | position dampratio | the same with kv = 2 ratio √(kp m), m the inertia that it moves |
+/// | position inheritrange r | ctrlrange: that of the joint, r times as wide |
+/// | joint actuatorfrcrange | forcerange of its actuators, by their gear |
+/// | dyntype filterexact | filter |
+/// | frame | a body without joints |
+///
+/// Attributes of default classes are included. All other unknown attributes, sensors, plugins and
+/// solver settings are removed. Keyframes lose their controls if an actuator is removed. Visual
+/// geoms whose mesh file is missing or empty are removed (DropMissingVisuals).
+/// @throws InputError  if the model has replicate, attach or flexcomp, which are part of the hand
+///     and cannot be converted; or if a mesh that a geom requires is missing or empty.
+void ConvertMjcf(const std::filesystem::path& folder, ModelText& text);
+
+/// Write the dampings of the actuators in `damping_ratios`.
+/// @param dampings  dampings in the order of `damping_ratios`, N m s/rad.
+void SetDampings(const std::vector<double>& dampings, ModelText& text);
+
+/// Prepare a URDF model for MuJoCo.
+/// Adds a `<compiler>` that keeps visual geoms and links fixed to other links, keeps the folders of
+/// mesh paths, and accepts inertias that no rigid body has. Settings in the file take precedence.
+///
+/// MuJoCo identifies meshes by their file name without folders. Meshes with the same file name in
+/// different folders, or with different scales, therefore get aliases (MeshFile). Paths such as
+/// package://hand/meshes/x.stl are resolved next to the model and in the folders above it. Visual
+/// meshes in formats that MuJoCo does not read, or with missing or empty files, are removed and
+/// listed. MuJoCo ignores `<mimic>` and the attribute `effort` of joints; they become
+/// ModelText::mimics and `ModelText::efforts`.
+/// @throws InputError  if a collision mesh cannot be read, a value of `<mimic>` or an `effort` is
+///     not a number, an `effort` is negative, or the model has a `<loop_joint>`.
+void ConvertUrdf(const std::filesystem::path& folder, ModelText& text);
+
+/// Remove all visual geoms, for models whose visual geoms MuJoCo rejects.
+/// @param why  reason, for the list of conversions.
+void DiscardVisuals(const std::string& why, ModelText& text);
 
 }  // namespace regrasp::kinematics

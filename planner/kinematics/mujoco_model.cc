@@ -14,8 +14,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/text_table.h"
-#include "planner/kinematics/convert_mjcf.h"
-#include "planner/kinematics/convert_urdf.h"
+#include "planner/kinematics/model_text.h"
 #include "planner/mujoco/handles.h"
 #include "planner/object/limited_child.h"
 

@@ -7,7 +7,6 @@
 
 #include "planner/grasp/cone_support.h"
 #include "planner/lp/simplex.h"
-#include "planner/lp/uneven_weight.h"
 
 namespace regrasp::motion {
 

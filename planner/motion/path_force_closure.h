@@ -4,7 +4,6 @@
 
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
-#include "planner/motion/contact_motion.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/wrench_frame.h"

@@ -18,15 +18,12 @@
 #include <vector>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/text_encoding.h"
 #include "planner/object/limited_child.h"
-#include "planner/object/read_3mf.h"
-#include "planner/object/read_gltf.h"
-#include "planner/object/soup_bytes.h"
-#include "planner/object/surface_format.h"
+#include "planner/object/polygon_soup.h"
+#include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
-#include "planner/object/xml_scan.h"
 
 namespace regrasp::object {
 

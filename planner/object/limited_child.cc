@@ -18,7 +18,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/sanitizer.h"
+#include "planner/base/memory.h"
 
 namespace regrasp::object {
 

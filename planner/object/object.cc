@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/object/closest_on_segment.h"
+#include "planner/object/segment.h"
 
 namespace regrasp::object {
 

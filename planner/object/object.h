@@ -3,13 +3,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/base/index.h"
-#include "planner/object/mass_properties.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp::object {
@@ -120,7 +122,7 @@ class Object {
   /// Return whether the normal of a contact patch deviates from the face's normal by more than
   /// FeltPatch::most_angle.
   ///
-  /// This happens on scans and near edges (patch_normal.h); planners place no finger there. Always
+  /// This happens on scans and near edges (polyhedron.h); planners place no finger there. Always
   /// false in the plane and without Reading::patch.
   [[nodiscard]] virtual bool IsRough(FaceIndex /*face*/, const Eigen::Vector3d& /*point*/) const {
     return false;
@@ -219,5 +221,41 @@ struct ObjectFile {
 /// process. Polygons: WKT (`.wkt`).
 /// @throws InputError  if the file is invalid; names the file, the element and the problem.
 [[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path);
+
+/// Contact patch by which a fingertip feels the surface normal (polyhedron.h).
+struct FeltPatch {
+  std::optional<double> radius;  ///< radius in object units; default kUsualPatch · D
+  double most_angle = 0;  ///< largest angle between the contact's and the patch's normal, rad
+};
+
+/// Default radius of a contact patch divided by the diameter: about a finger's width on an object
+/// held in one hand.
+inline constexpr double kUsualPatch = 0.02;
+
+/// Options, callbacks and deadline for reading an object.
+struct Reading {
+  /// Receives the name of each stage.
+  std::function<void(std::string_view)> progress = [](std::string_view) {};
+  Deadline deadline;
+  /// If set, points with a rough patch take no fingers.
+  std::optional<FeltPatch> patch = std::nullopt;
+  bool allow_filled = false;   ///< whether filled surfaces of a repair take fingers
+  bool counts_defects = true;  ///< whether a rejection counts all defects (mesh_survey.h)
+  std::optional<Shells> shells = std::nullopt;  ///< no effect on a surface that is valid without it
+  /// Receives a text on the treatment of several closed shells, if `shells` had an effect.
+  std::function<void(const std::string&)> on_shells = [](const std::string&) {};
+
+  /// Begin a stage. The deadline is checked only here: stages are not interrupted, except for
+  /// assimp, whose process is killed.
+  /// @throws TimeUp  if the deadline is reached.
+  void Begin(const std::string& stage) const {
+    deadline.Check();
+    progress(stage);
+  }
+};
+
+/// Read an object with options; see ReadObject(path).
+/// @throws TimeUp  if the deadline is reached; names the file.
+[[nodiscard]] ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading);
 
 }  // namespace regrasp::object

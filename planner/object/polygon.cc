@@ -17,7 +17,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/object/body_measures.h"
-#include "planner/object/closest_on_segment.h"
+#include "planner/object/segment.h"
 #include "planner/object/weld.h"
 
 namespace regrasp::object {

@@ -1,5 +1,3 @@
-#include "planner/object/read_3mf.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -15,9 +13,9 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/zip_archive.h"
+#include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 #include "planner/object/weld.h"
-#include "planner/object/xml_scan.h"
 
 namespace regrasp::object {
 

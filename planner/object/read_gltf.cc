@@ -1,5 +1,3 @@
-#include "planner/object/read_gltf.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/object/gltf_document.h"
+#include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 #include "planner/object/weld.h"
 

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/text_encoding.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "planner/object/object.h"
 #include "planner/object/polygon_soup.h"
-#include "planner/object/reading.h"
 
 namespace regrasp::object {
 
@@ -53,5 +56,59 @@ struct SoupFile {
 /// @throws InputError  if the file cannot be read or is a WKT polygon.
 /// @throws TimeUp  if the deadline is reached.
 [[nodiscard]] SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading);
+
+/// Format of surfaces or point clouds that is read in accordance with its specification.
+enum class SurfaceFormat { kObj, kOff, kPly, kStl, kXyz, kPcd, k3mf, kGltf, kCollada, kFbx };
+
+/// Determine the format of a file.
+///
+/// The extension of the file name determines it. For a name without extension, such as that of a
+/// pipe, the first bytes do. Every other format is rejected, although assimp reads about forty
+/// more. assimp swaps the axes of some (3DS, ASE, DXF), mirrors others (X) and ignores units (AMF,
+/// X3D).
+/// @param path   name of the file.
+/// @param bytes  its contents.
+/// @throws InputError  if the format is not supported; names file, extension and supported
+///     extensions.
+[[nodiscard]] SurfaceFormat FormatOf(const std::filesystem::path& path, std::string_view bytes);
+
+/// Largest distance of a contact from a point of the file, divided by the diameter, to count as on
+/// it.
+///
+/// It is 0.1 mm for an object of 10 cm. A point of the file is a corner of several triangles, so a
+/// contact has no normal there. A contact next to it, on one of the triangles, has.
+inline constexpr double kAtGivenPoint = 1e-3;
+
+/// Read the points of a file: those of a point cloud, or the vertices of a surface.
+/// @throws InputError  if the file cannot be read or is a WKT polygon.
+/// @throws TimeUp  if the deadline is reached.
+[[nodiscard]] std::vector<Eigen::Vector3d> ReadGivenPoints(const std::filesystem::path& path,
+                                                           const Reading& reading);
+
+/// Return the point nearest to `place`. @pre `points` is not empty.
+[[nodiscard]] const Eigen::Vector3d& NearestPoint(std::span<const Eigen::Vector3d> points,
+                                                  const Eigen::Vector3d& place);
+
+/// Read the bytes of a 3MF file; coordinates are converted to metres.
+///
+/// Build items and their components place the objects. The unit is millimetre if the model names
+/// none. assimp 5.2 is not used because it crashes on components and ignores the unit. Call it only
+/// in a process that may crash: see ReadWithAssimp. Source: 3MF Core Specification 1.3, chapters 3
+/// and 4.
+/// @throws InputError  if the bytes are not a ZIP archive with a model in XML, a number or a
+///     reference is invalid, or there are more than kMaxFacets triangles; the text does not contain
+///     the file's name.
+[[nodiscard]] PolygonSoup Read3mf(std::string_view bytes);
+
+/// Read the bytes of a glTF 2.0 file (`.gltf`, `.glb`), in metres: the triangles of its scene,
+/// placed by their nodes.
+///
+/// Points, lines, materials, cameras and animations are ignored. Features that move or add
+/// vertices are refused: skins, morph weights other than 0, instancing, compression, hidden nodes,
+/// and every required extension that is not known to leave the geometry alone. A file with several
+/// scenes must name one. KHR_mesh_quantization is read.
+/// Source: glTF 2.0 Specification (Khronos, 2021).
+/// @throws InputError  without the file's name: JSON pointer and problem.
+[[nodiscard]] PolygonSoup ReadGltf(std::string_view bytes);
 
 }  // namespace regrasp::object

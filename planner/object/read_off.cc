@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "planner/base/text_encoding.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/base/file.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/text_encoding.h"
 #include "planner/object/read_object.h"
 #include "planner/object/text_scanner.h"
 

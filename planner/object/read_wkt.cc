@@ -1,6 +1,6 @@
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/base/text_encoding.h"
 #include "planner/object/polygon.h"
 #include "planner/object/text_scanner.h"
 

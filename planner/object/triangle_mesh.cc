@@ -5,7 +5,7 @@
 #include <span>
 
 #include "planner/base/number.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 
 namespace regrasp::object {
 

@@ -4,9 +4,8 @@
 #include <cstdint>
 
 #include "planner/base/error.h"
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/check_step.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/projection.h"

@@ -4,12 +4,10 @@
 #include <numbers>
 #include <set>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/path_force_closure.h"
-#include "planner/object/patch_normal.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/plan_reach.h"

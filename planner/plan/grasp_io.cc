@@ -3,7 +3,6 @@
 #include "planner/base/file.h"
 #include "planner/plan/json_reader.h"
 #include "planner/plan/projection.h"
-#include "planner/plan/surface_tolerance.h"
 
 namespace regrasp::plan {
 

@@ -7,6 +7,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/plan/goal_set_io.h"
 
 namespace regrasp::plan {
 
@@ -99,6 +100,14 @@ Eigen::Vector3d JsonReader::Vector(int dimension) const {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
   for (int i = 0; i < dimension; ++i) vector[i] = elements[i].Number();
   return vector;
+}
+
+void JsonReader::ExpectOnly(std::initializer_list<std::string_view> names) const {
+  if (!value_.is_object()) FailType("a JSON object");
+  for (const auto& [name, member] : value_.items()) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    Fail("unknown member " + Json(name).dump(-1, ' ', true, Json::error_handler_t::replace));
+  }
 }
 
 void JsonReader::ExpectFormat(const char* format) const {
@@ -224,6 +233,8 @@ std::vector<double> ReadNumbers(const JsonReader& json) {
   return numbers;
 }
 
+}  // namespace
+
 Eigen::Isometry3d ReadPose(const JsonReader& json) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = json.Member("position").Vector(3);
@@ -245,6 +256,8 @@ Json PoseJson(const Eigen::Isometry3d& pose) {
   return {{"position", VectorJson(pose.translation(), 3)},
           {"quaternion", {turn.w(), turn.x(), turn.y(), turn.z()}}};
 }
+
+namespace {
 
 HandState ReadState(const JsonReader& json) {
   HandState state{ReadPose(json.Member("pose")), {}};
@@ -270,9 +283,11 @@ std::string ReadSha256(const JsonReader& json) {
 }
 
 HandUse ReadHandUse(const JsonReader& json) {
-  return {json.Member("name").String(), json.Member("file").String(),
-          ReadSha256(json.Member("sha256")), ReadState(json.Member("initial")),
-          ReadPose(json.Member("goal"))};
+  HandUse hand{json.Member("name").String(), json.Member("file").String(),
+               ReadSha256(json.Member("sha256")), ReadState(json.Member("initial")),
+               ReadPose(json.Member("goal"))};
+  if (json.Has("goals")) hand.goals = ReadGoalMarks(json.Member("goals"));
+  return hand;
 }
 
 HandPath ReadHandPath(const JsonReader& json) {
@@ -287,11 +302,13 @@ SwitchMotion ReadSwitchMotion(const JsonReader& json) {
 }
 
 Json HandUseJson(const HandUse& hand) {
-  return {{"name", hand.name},
-          {"file", hand.file},
-          {"sha256", hand.sha256},
-          {"initial", StateJson(hand.initial)},
-          {"goal", PoseJson(hand.goal)}};
+  Json json = {{"name", hand.name},
+               {"file", hand.file},
+               {"sha256", hand.sha256},
+               {"initial", StateJson(hand.initial)},
+               {"goal", PoseJson(hand.goal)}};
+  if (!hand.goals.empty()) json["goals"] = GoalMarksJson(hand.goals);
+  return json;
 }
 
 Json HandPathJson(const HandPath& path) {

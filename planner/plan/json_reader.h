@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/base/json.h"
@@ -27,6 +28,9 @@ class JsonReader {
 
   [[nodiscard]] bool Has(const char* key) const { return value_.contains(key); }
   [[nodiscard]] bool IsNull() const { return value_.is_null(); }
+  [[nodiscard]] bool IsString() const { return value_.is_string(); }
+  /// Require an object without members of other names.
+  void ExpectOnly(std::initializer_list<std::string_view> names) const;
   /// Return the member `key` of an object, which is required.
   [[nodiscard]] JsonReader Member(const char* key) const;
   /// Return the elements of an array.
@@ -84,6 +88,9 @@ class JsonReader {
 /// @throws InputError  if the member is not a list of numbers.
 [[nodiscard]] std::vector<double> ReadTorques(const JsonReader& json, const char* name);
 [[nodiscard]] motion::MotionSegments ReadMotionSegments(const JsonReader& json, int dimension);
+
+[[nodiscard]] Eigen::Isometry3d ReadPose(const JsonReader& json);
+[[nodiscard]] Json PoseJson(const Eigen::Isometry3d& pose);
 
 /// Read the parts of a plan file that describe the motion of a hand (docs/plan.schema.json).
 /// @throws InputError  if the value does not match the schema.

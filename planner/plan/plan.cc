@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/grasp/required_friction_angle.h"
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 
 namespace regrasp::plan {
 
@@ -117,6 +117,14 @@ HandState StateBetween(const HandState& from, const HandState& to, double share)
     }
   }
   return state;
+}
+
+HandState StateAfter(const HandState& before, const Step& step) {
+  const std::vector<const HandPath*> paths = PathsOf(step);
+  for (auto path = paths.rbegin(); path != paths.rend(); ++path) {
+    if (!(*path)->empty()) return (*path)->back();
+  }
+  return before;
 }
 
 std::vector<const HandPath*> PathsOf(const Step& step) {

@@ -11,6 +11,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/object/object.h"
+#include "planner/plan/goal_set.h"
 
 namespace regrasp::plan {
 
@@ -55,13 +56,22 @@ struct SwitchMotion {
   HandPath release;
 };
 
+/// Goal set that the object is in after a step of a plan.
+struct GoalMark {
+  std::string name;  ///< empty for the only goal of a plan
+  int step = 0;      ///< number of the last step of this goal; 0: the initial grasp
+  GoalSet set;
+};
+
 /// Hand of a plan, and its state at the initial grasp.
 struct HandUse {
   std::string name;
   std::string file;    ///< file name of the hand, without folders
   std::string sha256;  ///< kinematics::HandModel::sha256
   HandState initial;
-  Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< goal pose of the object
+  Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< final pose of the object
+  /// Goals with tolerances, in the order of their steps. Empty if the only goal is `goal`.
+  std::vector<GoalMark> goals = {};
 };
 
 /// Finger switch: the `place` fingers, which are free, make contact; then the `release` fingers,
@@ -130,10 +140,10 @@ struct Plan {
   /// Torsional friction length of all contacts (grasp::Contact::torsion), in the object's unit of
   /// length; 0: hard-finger contacts. ProjectPlan sets the torsion of the contacts themselves.
   double torsion = 0;
-  /// Radius of the contact patches of fingertips (object/patch_normal.h), in the object's unit of
+  /// Radius of the contact patches of fingertips (object/polyhedron.h), in the object's unit of
   /// length. If set, static grasps are force closure with the patches' normals too.
   std::optional<double> patch_radius = std::nullopt;
-  /// Whether every contact is at a point of the object's file (object/given_points.h), and fingers
+  /// Whether every contact is at a point of the object's file (object/read_object.h), and fingers
   /// move by switches only.
   bool at_given_points = false;
   std::optional<RoadmapNote> roadmap = std::nullopt;
@@ -193,6 +203,9 @@ void SetTorsion(double torsion, Plan& plan);
 /// Return the state between two consecutive states of a path (HandPath).
 /// @param share  0: `from`, 1: `to`.
 [[nodiscard]] HandState StateBetween(const HandState& from, const HandState& to, double share);
+
+/// Return the state of the hand after a step; `before` if the plan has no path for it.
+[[nodiscard]] HandState StateAfter(const HandState& before, const Step& step);
 
 /// Return all paths of a step's hand motion in order; empty if the plan has none.
 [[nodiscard]] std::vector<const HandPath*> PathsOf(const Step& step);

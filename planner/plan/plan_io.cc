@@ -279,6 +279,12 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   for (const JsonReader& step : root.Member("steps").Elements()) {
     plan.steps.push_back(ReadStep(step, plan.dimension));
   }
+  if (plan.hand && !plan.hand->goals.empty() &&
+      plan.hand->goals.back().step > std::ssize(plan.steps)) {
+    root.Member("hand").Member("goals").Fail("a goal is marked after step " +
+                                             std::to_string(plan.hand->goals.back().step) +
+                                             ", the plan has " + std::to_string(plan.steps.size()));
+  }
   for (const JsonReader& contact : root.Member("goal").Member("contacts").Elements()) {
     plan.goal.push_back(ReadContact(contact, plan.dimension));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 

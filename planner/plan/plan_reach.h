@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
 #include "planner/plan/reason.h"

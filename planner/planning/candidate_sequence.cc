@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "planner/base/deadline.h"
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/required_friction_angle.h"

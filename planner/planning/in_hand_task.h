@@ -8,6 +8,7 @@
 
 #include "planner/base/deadline.h"
 #include "planner/base/index.h"
+#include "planner/plan/goal_set.h"
 
 namespace regrasp::kinematics {
 struct HandModel;
@@ -50,8 +51,8 @@ struct ExecutionResult {
 };
 
 /// An object task for a hand, in addition to start and goal grasp: rotate the object, or move it to
-/// a pose. Poses are those of the object frame (axes and origin of its file) in the palm frame,
-/// metres.
+/// a pose of a goal set. Poses are those of the object frame (axes and origin of its file) in the
+/// palm frame, metres.
 struct InHandTask {
   const kinematics::HandModel* hand = nullptr;  ///< outlives the task
   double scale = 1;                             ///< metres per unit of the object's file
@@ -59,10 +60,18 @@ struct InHandTask {
   double margin = 1e-3;  ///< smallest clearance between links, palm and object, metres
   Turn turn = {};        ///< about the object's centre, which may end a few millimetres away
   std::optional<Eigen::Isometry3d> start_pose =
-      {};  ///< nullopt: the pose that the hand reaches best
-  std::optional<Eigen::Isometry3d> goal_pose = {};  ///< instead of a turn
+      {};                                  ///< nullopt: the pose that the hand reaches best
+  std::optional<plan::GoalSet> goal = {};  ///< poses at the end, instead of a turn
+  /// Goals that the object reaches one after the other, instead of a turn and a goal.
+  std::vector<plan::NamedGoal> goals = {};
+  /// Tolerance of a turn: of its angle, and of the position of the object's centre. Without it the
+  /// angle is exact and the centre may end some millimetres away.
+  std::optional<plan::PoseTolerance> turn_tolerance = {};
   /// Fingers of the contacts of a given start grasp, in its order; empty: any fingers.
   std::vector<FingerIndex> start_fingers = {};
+  /// Joint angles [finger][joint] at the start, radians (plan::HandState::joints); empty: any.
+  /// Requires `start_pose` and `start_fingers`.
+  std::vector<std::vector<double>> start_joints = {};
   /// Simulates the execution of a plan until the deadline (sim/actuation/simulate_execution.h).
   /// Returns nullopt if the hand has no actuators. Called only if `robustness` is not kNone, by as
   /// many threads as the request has jobs. Empty: plans are not simulated.

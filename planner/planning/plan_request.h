@@ -21,7 +21,7 @@
 
 namespace regrasp::planning {
 
-/// Half-angle φ of the cones of concurrent grasps; θ is the friction angle.
+/// Friction angle φ of the cones of concurrent grasps; θ is the friction angle of the request.
 enum class Spanning {
   kAdaptive,  ///< φ = min(θ, φ*), φ* the supremum of angles for which the normals φ-positively span
   kUniform,  ///< φ = θ if the normals θ-positively span; otherwise there is no set
@@ -143,7 +143,7 @@ struct PlanRequest {
   GraspChoice goal = {};
   hand::Hand hand = {};
   criteria::GraspCriteria criteria = {};
-  /// Points of the object's file on which all contacts must be (object/given_points.h). Null: the
+  /// Points of the object's file on which all contacts must be (object/read_object.h). Null: the
   /// whole surface. Outlives the request; only some planners have this option.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
   Objective objective = Objective::kSteps;  ///< only some planners have others than kSteps

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planner/base/error.h"
-#include "planner/base/limit_text.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
 #include "planner/base/random.h"
@@ -14,9 +13,9 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/unit_contacts.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "planner/plan/plan_reach.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::planning {
 

@@ -19,7 +19,6 @@
 #include "planner/repair/cgal_mesh.h"
 #include "planner/repair/resolve_touching.h"
 #include "planner/repair/stages.h"
-#include "planner/repair/unite_shells.h"
 
 namespace regrasp::repair {
 

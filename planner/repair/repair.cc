@@ -6,7 +6,7 @@
 
 #include "planner/base/file.h"
 #include "planner/base/number.h"
-#include "planner/repair/filled_marks.h"
+#include "planner/repair/comparison.h"
 #include "planner/repair/repair_pipeline.h"
 
 namespace regrasp::repair {

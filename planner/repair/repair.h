@@ -7,10 +7,10 @@
 
 #include "planner/base/error.h"
 #include "planner/base/json.h"
+#include "planner/object/object.h"
 #include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/read_object.h"
-#include "planner/object/reading.h"
 #include "planner/repair/comparison.h"
 #include "planner/repair/stages.h"
 

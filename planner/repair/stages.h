@@ -1,10 +1,14 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "planner/base/deadline.h"
 #include "planner/base/json.h"
 #include "planner/object/polygon_soup.h"
 
@@ -110,5 +114,41 @@ inline constexpr double kWrapDetail = 0.01;
 
 /// Offset of the wrap from the surface before the projection, over kWrapDetail.
 inline constexpr double kWrapOffset = 0.1;
+
+/// Outcome of a stage: a surface, or the reason why there is none.
+struct StageRun {
+  std::optional<StageResult> result;
+  std::string failure;
+};
+
+/// Limit of processor time of a stage.
+/// A stage takes seconds for a scan and a minute for a million triangles.
+inline constexpr std::chrono::seconds kStageTime{300};
+
+/// Run a stage in a child process of limited time and memory.
+/// @throws TimeUp  if the deadline passes.
+/// @throws EnvironmentError  if no process can be started.
+[[nodiscard]] StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& deadline,
+                                std::chrono::seconds processor = kStageTime);
+
+/// Return a surface in an order that its coordinates alone determine.
+/// Vertices are sorted by coordinates, the corners of each polygon start at its first vertex, and
+/// polygons are sorted by their vertices. The reason: the stage that unites shells orders them by
+/// memory addresses, which depend on the calling program.
+///
+/// Law: the result does not depend on the numbering of vertices and polygons, nor on the corner at
+/// which a polygon starts. Vertices at the same position keep their order.
+[[nodiscard]] object::PolygonSoup InCanonicalOrder(const object::PolygonSoup& soup);
+
+/// Return true iff an edge has one triangle only.
+/// @param soup  result of CleanSurface: no edge has more than two triangles.
+[[nodiscard]] bool HasOpenEdges(const object::PolygonSoup& soup);
+
+/// Return the shell of each triangle.
+/// Shells share no vertex. They are numbered in the order of their first triangles.
+[[nodiscard]] std::vector<int> ShellOfFacets(const object::PolygonSoup& soup);
+
+/// Return the number of shells, that is of parts that share no vertex.
+[[nodiscard]] int CountShells(const object::PolygonSoup& soup);
 
 }  // namespace regrasp::repair

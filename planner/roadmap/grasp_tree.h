@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/base/deadline.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/roadmap/roadmap.h"
 
 namespace regrasp::roadmap {

@@ -11,11 +11,9 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/object/polyhedron.h"
 #include "planner/planning/planner.h"
-#include "planner/roadmap/build_roadmap.h"
 #include "planner/roadmap/cluster_search.h"
-#include "planner/roadmap/contact_point_search.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap.h"
-#include "planner/sampling/draw_grasp.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::roadmap {

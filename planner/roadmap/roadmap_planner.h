@@ -12,7 +12,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/planning/plan_request.h"
 #include "planner/planning/planner.h"
-#include "planner/roadmap/contact_chain.h"
+#include "planner/roadmap/local_planners.h"
 
 namespace regrasp::roadmap {
 

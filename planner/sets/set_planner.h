@@ -12,11 +12,10 @@
 #include "planner/plan/plan.h"
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/plan_request.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 #include "planner/sets/candidate_search.h"
 #include "planner/sets/sequence_builder.h"
 #include "planner/sets/set_graph.h"
-#include "planner/sets/set_sampling.h"
 
 namespace regrasp::sets {
 

@@ -2,15 +2,43 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/motion/contact_motion.h"
 #include "planner/motion/find_motion_proof.h"
 #include "planner/plan/plan_reach.h"
 #include "planner/tree/surface_route.h"
 
 namespace regrasp::tree {
+
+namespace {
+
+/// Number of tests between two readings of the clock, about a millisecond.
+constexpr std::int64_t kTestsBetweenChecks = 500;
+
+/// Cost of ray shooting for a quality, in force-closure tests.
+constexpr std::int64_t kShotCost = 40;
+
+}  // namespace
+
+SearchSpace::SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
+                         const hand::Hand& hand)
+    : criteria::GraspMemory(object, criteria, hand, criteria::QualityTest::kQuick),
+      fingers_(std::min(hand.FingersIn(object.dimension()), criteria::ContactSet::kMostHeld)) {}
+
+std::int64_t SearchSpace::tests() const {
+  return counts().force_closure + kShotCost * shot_count() + more_tests_;
+}
+
+bool SearchSpace::IsSpent() {
+  if (tests() >= next_check_) {
+    next_check_ = tests() + kTestsBetweenChecks;
+    out_of_time_ = limits_.deadline.IsOver();
+    limits_.on_check(tests());
+  }
+  return out_of_time_ || tests() >= limits_.most_tests;
+}
 
 namespace {
 
@@ -314,6 +342,38 @@ std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,
   std::vector<grasp::Grasp> waypoints = FindWaypoints(*pairs, space);
   if (waypoints.empty()) return std::nullopt;
   return Prove(*std::move(pairs), std::move(waypoints), space);
+}
+
+FaceAlign Reversed(FaceAlign align) {
+  for (auto& [from, to] : align.contacts) std::swap(from, to);
+  std::reverse(align.between.begin(), align.between.end());
+  std::reverse(align.proof.begin(), align.proof.end());
+  for (motion::MotionSegments& pieces : align.proof) {
+    std::reverse(pieces.begin(), pieces.end());
+    for (motion::MotionSegment& piece : pieces) {
+      std::swap(piece.start, piece.end);
+      std::swap(piece.from, piece.to);
+      piece.from = 1 - piece.from;
+      piece.to = 1 - piece.to;
+    }
+  }
+  return align;
+}
+
+GraspPath Reversed(const GraspPath& path) {
+  GraspPath reversed{path.end(), {}};
+  for (auto step = path.steps.rbegin(); step != path.steps.rend(); ++step) {
+    const auto before = std::next(step);
+    PathStep back{before == path.steps.rend() ? path.start : before->to, std::nullopt};
+    if (step->align) back.align = Reversed(*step->align);
+    reversed.steps.push_back(std::move(back));
+  }
+  return reversed;
+}
+
+void Append(const GraspPath& more, GraspPath& path) {
+  assert(more.start == path.end());
+  path.steps.insert(path.steps.end(), more.steps.begin(), more.steps.end());
 }
 
 }  // namespace regrasp::tree

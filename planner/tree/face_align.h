@@ -1,14 +1,55 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "planner/base/deadline.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/grasp/contact.h"
 #include "planner/motion/motion_segment.h"
-#include "planner/tree/search_space.h"
 
 namespace regrasp::tree {
+
+/// Limits at which a search stops.
+struct SearchLimits {
+  std::int64_t most_tests = std::numeric_limits<std::int64_t>::max();
+  Deadline deadline = {};
+  /// Callback with the number of tests, called whenever the clock is read.
+  std::function<void(std::int64_t tests)> on_check = [](std::int64_t) {};
+};
+
+/// Contacts and grasps of a search.
+/// Contacts are numbered as they occur. A set of contacts is admitted if it is a grasp that a
+/// sequence may contain, by the quick test of quality. Counts the tests, which are the search
+/// budget.
+class SearchSpace : public criteria::GraspMemory {
+ public:
+  /// @param object  object that outlives this space.
+  SearchSpace(const object::Object& object, const criteria::GraspCriteria& criteria,
+              const hand::Hand& hand = {});
+
+  /// Number of usable fingers of the hand, at most the number that can hold at once.
+  [[nodiscard]] int fingers() const { return fingers_; }
+
+  /// Number of force-closure tests, including those of certificates and the cost of qualities.
+  [[nodiscard]] std::int64_t tests() const;
+  void CountTests(std::int64_t tests) { more_tests_ += tests; }
+  void SetLimits(const SearchLimits& limits) { limits_ = limits; }
+  /// Return whether the search must stop; reads the clock only occasionally.
+  [[nodiscard]] bool IsSpent();
+  [[nodiscard]] bool out_of_time() const { return out_of_time_; }
+
+ private:
+  int fingers_;
+  std::int64_t more_tests_ = 0;  ///< tests that the memory does not count
+  SearchLimits limits_;
+  std::int64_t next_check_ = 0;  ///< number of tests at which the clock is read next
+  bool out_of_time_ = false;
+};
 
 /// Motion of all contacts of a grasp along the surface, proved to keep force closure.
 /// Between two waypoints every contact moves straight on its face; or one contact keeps its point
@@ -73,5 +114,31 @@ using ContactPairs = std::vector<std::pair<int, int>>;
 [[nodiscard]] std::optional<FaceAlign> AlignBetween(const criteria::ContactSet& from,
                                                     const criteria::ContactSet& to,
                                                     SearchSpace& space);
+
+/// Step between two grasps of a SearchSpace: a sliding step if `align` is set, otherwise a finger
+/// switch.
+struct PathStep {
+  criteria::ContactSet to;
+  std::optional<FaceAlign> align;
+};
+
+/// Sequence of grasps.
+struct GraspPath {
+  criteria::ContactSet start;
+  std::vector<PathStep> steps;
+
+  [[nodiscard]] const criteria::ContactSet& end() const {
+    return steps.empty() ? start : steps.back().to;
+  }
+};
+
+/// Return the reversed sliding step.
+[[nodiscard]] FaceAlign Reversed(FaceAlign align);
+
+/// Return the reversed path.
+[[nodiscard]] GraspPath Reversed(const GraspPath& path);
+
+/// Append `more`, which begins with the last grasp of `path`.
+void Append(const GraspPath& more, GraspPath& path);
 
 }  // namespace regrasp::tree

@@ -5,8 +5,7 @@
 
 #include "planner/base/random.h"
 #include "planner/sampling/surface_sampler.h"
-#include "planner/tree/grasp_path.h"
-#include "planner/tree/search_space.h"
+#include "planner/tree/face_align.h"
 
 namespace regrasp::tree {
 

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/tree/grasp_path.h"
-#include "planner/tree/search_space.h"
+#include "planner/tree/face_align.h"
 
 namespace regrasp::tree {
 

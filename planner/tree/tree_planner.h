@@ -4,8 +4,7 @@
 
 #include "planner/planning/candidate_sequence.h"
 #include "planner/planning/planner.h"
-#include "planner/tree/grasp_path.h"
-#include "planner/tree/search_space.h"
+#include "planner/tree/face_align.h"
 
 namespace regrasp::tree {
 

@@ -6,6 +6,7 @@ import html
 import json
 import math
 import os
+from collections.abc import Sequence
 
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
@@ -208,13 +209,14 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
                  start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
+                 goals: str | os.PathLike | Sequence[dict] | None = None,
                  reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
     """Find how a hand rotates or moves an object, or changes its grasp.
 
     The plan has the joint angles of all fingers and is free of collisions. Set at least one of `turn`,
-    `goal_pose` and `goal`. The same arguments give the same plan, bit for bit, unless `time_limit`
+    `goal_pose`, `goals` and `goal`. The same arguments give the same plan, bit for bit, unless `time_limit`
     ends the search.
 
     Args:
@@ -229,6 +231,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             metres and unit quaternion w, x, y, z. Default: the pose at which the fingers reach most
             of the object.
         goal_pose: final pose, in the same form.
+        goals: goals that the object reaches one after the other. Path of a goals file
+            (docs/format_goals.md), or its list of goals as dictionaries. The plan marks the step of
+            each goal.
         reserve: robustness of the plan. "required" returns only a plan that executes in simulation on
             the hand's actuators. "preferred" returns a plan that does not if there is no other.
             "standard" returns only a plan that also executes with realistic sensors, joint errors of
@@ -256,9 +261,12 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         raise InputError(f"object must be a solid, found the polygon {object.name}")
     if turn is not None and goal_pose is not None:
         raise InputError("turn cannot be used with goal_pose")
-    if turn is None and goal_pose is None and goal is None:
-        raise InputError('a goal is required: turn=("z", 90), goal_pose or goal')
-    if turn is None and goal_pose is None and start is None and start_pose is None:
+    for name, value in (("turn", turn), ("goal_pose", goal_pose), ("goal", goal)):
+        if goals is not None and value is not None:
+            raise InputError(f"goals cannot be used with {name}")
+    if turn is None and goal_pose is None and goals is None and goal is None:
+        raise InputError('a goal is required: turn=("z", 90), goal_pose, goals or goal')
+    if turn is None and goal_pose is None and goals is None and start is None and start_pose is None:
         raise InputError("goal requires start or start_pose")
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     if jobs is None:
@@ -271,6 +279,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         task.turn_axis, task.turn_angle = _turn(turn)
     task.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
     task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
+    if goals is not None:
+        task.goals_name, task.goals = _goals_text(goals)
     words = ["preferred", "required", "standard", "none"]
     level = _arguments.choice("reserve", reserve, words)
     task.is_standard = level == "standard"
@@ -289,6 +299,22 @@ def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):
     if time_limit is not None:
         given.time_limit_s = _arguments.number("time_limit", time_limit, 0)
     return given
+
+
+def _goals_text(goals) -> tuple[str, str]:
+    """Return the name and the text of a file of goals."""
+    if isinstance(goals, (str, os.PathLike)):
+        path = os.fspath(goals)
+        try:
+            with open(path, encoding="utf-8") as file:
+                return path, file.read()
+        except (OSError, UnicodeDecodeError) as error:
+            raise InputError(f"goals: cannot read {path}: {error}") from None
+    try:
+        text = json.dumps({"format": "regrasp-goals", "version": 1, "goals": list(goals)})
+    except (TypeError, ValueError) as error:
+        raise InputError(f"goals must be a path or a list of dictionaries: {error}") from None
+    return "goals", text
 
 
 def _turn(turn) -> tuple[list[float], float]:

@@ -9,12 +9,10 @@
 #include "planner/base/number.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_switch.h"
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

@@ -10,7 +10,7 @@
 #include "planner/sets/contour/set_geometry.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
-#include "render/figures/figure_format.h"
+#include "render/figures/figure_page.h"
 
 namespace regrasp::render {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/sets/contour/boundary.h"
 #include "planner/sets/contour/contact_space.h"
+#include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/contour/set_geometry.h"
 #include "render/figures/contact_space_track.h"
 #include "render/picture/image.h"

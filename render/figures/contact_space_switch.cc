@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/figures/contact_space_map.h"
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 

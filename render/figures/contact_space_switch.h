@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "planner/sets/contour/boundary.h"
+#include "planner/sets/contour/contour_graph.h"
 #include "render/figures/contact_space_map.h"
 #include "render/figures/contact_space_track.h"
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 
 namespace regrasp::render {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/plan/plan.h"
-#include "planner/sets/contour/boundary.h"
+#include "planner/sets/contour/contour_graph.h"
 #include "planner/sets/contour/set_geometry.h"
 #include "render/figures/grasp_diagram.h"
 

@@ -9,7 +9,7 @@
 #include "planner/sets/polygon/convex_region.h"
 #include "planner/sets/polygon/plane.h"
 #include "planner/sets/polygon/set_cells.h"
-#include "render/picture/label_layout.h"
+#include "render/picture/caption.h"
 
 namespace regrasp::render {
 

@@ -8,7 +8,7 @@
 #include "planner/object/object.h"
 #include "planner/object/polygon.h"
 #include "planner/plan/plan.h"
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/figures/grasp_diagram.h"
 #include "render/figures/panel_sheet.h"
 #include "render/figures/solid_figure.h"

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "render/figures/figure_page.h"
-#include "render/figures/finger_marker.h"
 #include "render/figures/panel_sheet.h"
 #include "render/picture/cairo_paint.h"
+#include "render/picture/caption.h"
 #include "render/picture/image.h"
-#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/figures/figure_page.h"
-#include "render/figures/finger_marker.h"
+#include "render/figures/panel_sheet.h"
 #include "render/figures/plan_figure.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"

@@ -14,7 +14,6 @@
 #include "planner/base/number.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
-#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

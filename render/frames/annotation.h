@@ -7,8 +7,8 @@
 
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
+#include "render/picture/caption.h"
 #include "render/picture/image.h"
-#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

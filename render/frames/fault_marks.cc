@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/grasp/required_friction_angle.h"
 

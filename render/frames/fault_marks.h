@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "planner/object/object.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
-#include "planner/plan/snapshot.h"
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"
 #include "render/frames/finger_glyph.h"
-#include "render/picture/label_layout.h"
+#include "render/picture/caption.h"
 
 namespace regrasp::render {
 
@@ -80,7 +80,7 @@ struct FaultScene {
 
 /// Compute the scene of a failed step.
 /// @param scale     metres per unit of the object.
-/// @param snapshot  state in the replay, or as planned (planner/plan/snapshot.h).
+/// @param snapshot  state in the replay, or as planned (planner/plan/projection.h).
 /// @param heading   reason of the failure, one line.
 [[nodiscard]] FaultScene MakeFaultScene(const object::Object& object, double scale,
                                         plan::Reason reason, const plan::Fault& fault,

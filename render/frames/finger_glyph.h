@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/canvas.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "planner/sets/polyhedron/focus_contacts.h"
+#include "planner/sets/polyhedron/face_part.h"
 #include "render/frames/annotation.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/camera.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "planner/object/object.h"
-#include "planner/plan/snapshot.h"
-#include "planner/roadmap/cluster_view.h"
+#include "planner/plan/projection.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/finger_glyph.h"
@@ -45,7 +45,7 @@ struct FrameOptions {
   /// Additional points that must be visible unless they are far away: metres, world frame.
   std::vector<Eigen::Vector3d> also_seen = {};
   /// Whether to draw the focus point of a concurrent grasp of a solid, the lines to it and its
-  /// independent contact regions on planar faces (planner/sets/polyhedron/focus_contacts.h).
+  /// independent contact regions on planar faces (planner/sets/polyhedron/face_part.h).
   bool show_focus = false;
   /// Contact clusters of a solid: their colours on its surface and their representatives as dots.
   std::optional<roadmap::ClusterView> clusters = std::nullopt;

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
-#include "planner/plan/snapshot.h"
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
 #include "render/frames/finger_glyph.h"

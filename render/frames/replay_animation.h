@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/frames/frame.h"
 #include "render/picture/animation.h"
 

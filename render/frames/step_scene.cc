@@ -11,7 +11,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/frames/finger_glyph.h"
 
 namespace regrasp::render {

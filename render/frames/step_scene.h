@@ -11,8 +11,8 @@
 #include "render/frames/camera.h"
 #include "render/frames/canvas.h"
 #include "render/frames/shaded_mesh.h"
+#include "render/picture/caption.h"
 #include "render/picture/image.h"
-#include "render/picture/label_layout.h"
 
 namespace regrasp::render {
 

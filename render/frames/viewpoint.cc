@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "planner/base/number.h"
-#include "render/picture/label_layout.h"
+#include "render/picture/caption.h"
 
 namespace regrasp::render {
 

@@ -30,4 +30,17 @@ class FactList {
 /// @param measures  measures of each entry (MeasureSteps).
 [[nodiscard]] Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measures);
 
+/// Return the section of report.html with the findings, as elements; empty without findings.
+/// The section lists disagreements between analysis, replay and fixed grasp force with their likely
+/// cause. One line per step has the required friction, the weakest finger and the force margins. If
+/// the report has resisted wrenches, they follow as a table and, for a plan with steps, as a plot.
+[[nodiscard]] std::vector<Element> MakeFindings(const Report& report);
+
+/// Return the section on the conditions of a report: a bar chart with one bar per condition, and a
+/// table. The length of a bar is the tolerance margin. Empty without conditions.
+[[nodiscard]] std::vector<Element> MakeConditionSection(const Report& report);
+
+/// Return the section on the goals of a plan for a hand; empty without goals.
+[[nodiscard]] std::vector<Element> MakeGoalSection(const Report& report);
+
 }  // namespace regrasp::report

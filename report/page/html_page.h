@@ -16,7 +16,7 @@ namespace regrasp::report {
 /// none is read as a scheme, a query or a fragment.
 [[nodiscard]] std::string PathUri(std::string_view path);
 
-/// Permitted sources of a page's images; a page loads nothing else.
+/// Permitted sources of a page's images, which are all that a page loads.
 enum class PictureSource {
   kInPage,   ///< in the page (DataUri)
   kOwnSite,  ///< also files in the folder of the page

@@ -7,11 +7,8 @@
 
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
-#include "report/condition_table.h"
 #include "report/failure.h"
-#include "report/page/condition_section.h"
 #include "report/page/facts.h"
-#include "report/page/findings.h"
 #include "report/page/html_page.h"
 #include "report/page/step_plot.h"
 #include "report/page/step_table.h"
@@ -40,7 +37,8 @@ class Page {
     for (const Parts& parts :
          {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
           MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
-          MakeFindings(report_), MakeConditionSection(report_), Replay(), Frames()}) {
+          MakeGoalSection(report_), MakeFindings(report_), MakeConditionSection(report_), Replay(),
+          Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     const std::string extent = Extent();
@@ -273,7 +271,7 @@ std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
 }
 
 int PagePictureWidth(int count) {
-  // A picture of w pixels takes about 0.07 w² bytes: 2 MB, 2 MB, and 10 kB for each.
+  // An image of width w takes about 0.07 w² bytes: 2 MB, 2 MB, and 10 kB for each.
   constexpr int kLarge = 800, kMedium = 560, kSmall = 320;
   constexpr int kManyLarge = 24, kManyMedium = 60;
   if (count <= kManyLarge) return kLarge;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
 #include "report/page/step_plot.h"

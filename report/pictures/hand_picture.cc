@@ -14,11 +14,11 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using plan::HandState;
 
-/// Pictures of a motion: one for so much that the fastest joint, or the object, turns, or for so
-/// much that the object goes.
+/// Rotation of the fastest joint or of the object, or translation of the object, per frame of a
+/// motion.
 constexpr double kTurnPerPicture = Radians(3);
 constexpr double kWayPerPicture = 1e-3;  // metres
-constexpr int kMaxEntryFrames = 40;      // of a path
+constexpr int kMaxEntryFrames = 40;      // frames per path
 
 void Add(const render::ShadedMesh& more, render::ShadedMesh& mesh) {
   mesh.triangles.insert(mesh.triangles.end(), more.triangles.begin(), more.triangles.end());
@@ -46,7 +46,7 @@ Eigen::AngleAxisd TurnFrom(const HandState& a, const HandState& b) {
   return Eigen::AngleAxisd(a.pose.linear().transpose() * b.pose.linear());
 }
 
-/// From one state to the next, in pictures.
+/// Return the length of the motion between two states, in frames.
 double MotionBetween(const HandState& a, const HandState& b) {
   double turn = TurnFrom(a, b).angle();
   for (std::size_t i = 0; i < a.joints.size(); ++i) {
@@ -58,13 +58,13 @@ double MotionBetween(const HandState& a, const HandState& b) {
   return std::max(turn / kTurnPerPicture, way / kWayPerPicture);
 }
 
-/// A state on a path, and the share of the path's steps that are behind it.
+/// State on a path, and the share of the path's steps before it.
 struct Passing {
   HandState state;
   double share;
 };
 
-/// States along a path, evenly spread, without its two ends.
+/// Return evenly spaced states along a path, without its two ends.
 std::vector<Passing> Spread(const plan::HandPath& path) {
   std::vector<double> along = {0};
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -83,7 +83,7 @@ std::vector<Passing> Spread(const plan::HandPath& path) {
   return states;
 }
 
-/// Puts fingers to where they touch, the object as it begins (Snapshot::X_WO).
+/// Move fingers to their contacts on the object in its initial pose (Snapshot::X_WO).
 void SetContacts(const plan::FingerGrasp& grasp, double scale, plan::Snapshot& snapshot) {
   for (plan::FingerState& finger : snapshot.fingers) {
     const plan::FingerContact* held = plan::FindFinger(grasp, finger.finger);
@@ -95,7 +95,7 @@ void SetContacts(const plan::FingerGrasp& grasp, double scale, plan::Snapshot& s
   }
 }
 
-/// The fingers that hold, without what they did to come to it.
+/// Return the holding fingers only, without the paths of their approach.
 plan::Snapshot Holding(plan::Snapshot rest, const std::vector<FingerIndex>& but = {}) {
   std::erase_if(rest.fingers, [&](const plan::FingerState& finger) {
     return finger.role == plan::FingerRole::kFree || finger.role == plan::FingerRole::kReleased ||
@@ -120,12 +120,12 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
     const bool is_fingertip =
         link.finger.valid() && link.after == std::ssize(hand_.fingers[link.finger].joints);
     view.push_back({{link.finger, link.after}, is_fingertip, MeshOf(link)});
-    // From here on they only say where the links are.
+    // After this point the links are used for poses only.
     link.triangles = {};
     link.normals = {};
   }
-  // What touches is the ball, wherever the model's look ends; a hair smaller, so that the look is
-  // seen where it is as large.
+  // The contact geometry is the fingertip sphere. It is drawn slightly smaller, so that visual
+  // geometry of the same size remains visible.
   constexpr double kInside = 0.985;
   for (FingerIndex finger{0}; finger < std::ssize(hand_.fingers); ++finger) {
     const kinematics::Fingertip& tip = hand_.fingers[finger].tip;
@@ -137,7 +137,7 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
     links_.push_back(std::move(ball));
   }
   view_ = std::make_shared<const render::HandView>(std::move(view));
-  // The object begins where frames without a hand have it.
+  // The initial pose of the object is that of frames without a hand.
   X_WP_.setIdentity();
   X_WP_.linear() =
       Eigen::Quaterniond::FromTwoVectors(hand_.up, Vector3d::UnitZ()).toRotationMatrix();
@@ -149,8 +149,8 @@ bool HandPicture::Fits(const HandState& state) const {
                             [](const kinematics::Finger& finger) { return finger.joints.size(); });
 }
 
-/// How hand and object stand at the end of each entry; as before where a step does not say, or says
-/// it of another hand.
+/// Return the state of hand and object at the end of each entry. A step without a state of this
+/// hand does not change the state.
 std::vector<HandState> HandPicture::StatesOf(const plan::Plan& plan) const {
   HandState rest{plan.hand->initial.pose, {}};
   for (const kinematics::Finger& finger : hand_.fingers) {
@@ -211,7 +211,8 @@ std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
                                                  const plan::Snapshot& before,
                                                  const plan::Snapshot& after) const {
   std::vector<plan::Snapshot> pictures;
-  /// @param set_contacts  of a picture, told the share of the path's steps.
+  /// @param set_contacts  sets the contacts of a frame, for the share of the path's steps before
+  /// it.
   const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen,
                        const std::function<void(double, plan::Snapshot&)>& set_contacts) {
     if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;

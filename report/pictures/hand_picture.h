@@ -6,8 +6,8 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/hand_visuals.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
-#include "planner/plan/snapshot.h"
 #include "render/frames/hand_view.h"
 
 namespace regrasp::report {

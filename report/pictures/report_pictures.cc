@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "planner/plan/projection.h"
-#include "planner/plan/snapshot.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/overview_image.h"
 #include "render/frames/replay_animation.h"
@@ -18,14 +17,14 @@ namespace regrasp::report {
 
 namespace {
 
-/// In the caption of a frame that is not seen from where the others are.
+/// Suffix of the caption of a frame whose camera differs from that of the rest.
 constexpr char kOwnView[] = " (seen from another side)";
 
 constexpr render::Color kGood = {29, 107, 60};
 constexpr render::Color kBad = {179, 38, 30};
 constexpr render::Color kSkipped = {112, 120, 134};
 
-/// So many steps after a failure have a cell of their own in the contact sheet.
+/// Largest number of cells in the overview image for steps after a failure.
 constexpr int kMostSkipped = 24;
 
 bool Failed(const ReportStep& step) { return step.verdict() == Verdict::kFail; }
@@ -45,19 +44,19 @@ render::OverviewLabel MakeLabel(const ReportStep& step) {
           failed};
 }
 
-/// The verdict in a line.
+/// Make a line with the verdict.
 render::OverviewLabel MakeHeading(const Report& report) {
   return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
-/// An entry that has a frame: what it shows, and what is wrong where it failed.
+/// Entry that has a frame: the displayed state, and marks at the fault if it failed.
 struct Shown {
   const ReportStep* step;
   plan::Snapshot snapshot;
   std::optional<render::FaultMarks> marks = std::nullopt;
 };
 
-/// What the replay saw at the failure; what is planned where it did not come to it.
+/// Return the replayed state at the failure, or the planned state if the replay did not reach it.
 Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const ReportStep& step,
                   const Report& report, const HandPicture* hand) {
   const plan::Reason reason = step.reason();
@@ -82,7 +81,7 @@ Shown ShowSound(const ReportStep& step, const HandPicture* hand) {
   return shown;
 }
 
-/// Of each entry what a hand does before it comes to rest; not of one that failed.
+/// Return the states of a hand during each entry; none for a failed entry.
 std::vector<std::vector<plan::Snapshot>> ShowMotions(const HandPicture& hand,
                                                      const Report& report) {
   std::vector<std::vector<plan::Snapshot>> motions;
@@ -108,7 +107,7 @@ std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& p
   return shown;
 }
 
-/// Grey cells for the steps after a failure; the last one stands for all that have no room.
+/// Add grey cells for the steps after a failure. The last cell represents all further steps.
 void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
   const auto first = std::ranges::find_if(report.steps, &ReportStep::skipped);
   const auto skipped = static_cast<int>(report.steps.end() - first);
@@ -120,7 +119,7 @@ void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
   }
 }
 
-/// The frames of a report, and its animation, are seen from one place.
+/// Make the renderer of the frames and the animation of a report, which share a camera.
 render::FrameRenderer MakeRenderer(const object::Object& object, const Report& report,
                                    const std::vector<Shown>& shown, render::FrameOptions options) {
   std::vector<plan::Snapshot> snapshots;

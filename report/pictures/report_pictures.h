@@ -14,48 +14,49 @@
 
 namespace regrasp::report {
 
+/// Options for drawing the images of a report.
 struct DrawingOptions {
   render::FrameOptions frame;
-  const HandPicture* hand = nullptr;  ///< of a plan for a hand; null: fingers without one
-  int workers = 1;                    ///< threads that draw
+  const HandPicture* hand = nullptr;  ///< hand of the plan; null: fingers without a hand
+  int workers = 1;                    ///< number of drawing threads
   int sheet_width = render::kOverviewWidth;
-  /// Called with the number of pictures drawn and of all, after each.
+  /// Receives the number of finished images and of all images after each image.
   std::function<void(int done, int all)> on_picture = [](int, int) {};
 };
 
-/// The picture of an entry.
+/// Frame of an entry.
 struct DrawnFrame {
   plan::EntryIndex entry;
   const render::Image& image;
-  bool own_view = false;  ///< not taken from where the others are
+  bool own_view = false;  ///< whether its camera differs from that of the rest
 };
 
-/// How many entries of a report have a frame: up to the one that failed.
+/// Return the number of entries that have a frame: all up to the failed entry.
 [[nodiscard]] int CountFrames(const Report& report);
 
-/// Draws a frame of every entry up to the one that failed. The frame of the one that failed shows
-/// what the replay saw, or what is planned where it was not replayed, with what is wrong.
-/// @param take  called with each frame, in order.
-/// @returns the contact sheet: all of them, small, with the verdict in words and grey cells for the
-///          steps after the failure.
-/// @throws EnvironmentError  no rendering context.
-/// @throws what `take` throws.
+/// Draw a frame of every entry up to the failed entry.
+/// The failed entry's frame shows the replayed state, or the planned state if the entry was not
+/// replayed, with marks at the fault.
+/// @param take  receives each frame, in order; its exceptions pass.
+/// @returns the overview image: all frames, small, with the verdict in words and grey cells for the
+///     steps after the failure.
+/// @throws EnvironmentError  if there is no rendering context.
 render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                          const DrawingOptions& options, const Report& report,
                          const std::function<void(const DrawnFrame&)>& take);
 
-/// The same moving picture in several formats.
+/// Animation in several formats.
 struct MovingPictures {
-  std::vector<std::string> bytes;  ///< of the file of each format
-  int width = 0;                   ///< pixels, as is the height
+  std::vector<std::string> bytes;  ///< bytes of the file of each format
+  int width = 0;                   ///< width and height, pixels
   int height = 0;
 };
 
-/// Draws what was replayed as moving pictures, from where the frames are seen; the last rest is the
-/// frame of the step that failed.
-/// @param options  the size is that of the moving pictures.
+/// Draw the replay as an animation, with the camera of the frames.
+/// It ends with the frame of the failed step.
+/// @param options  options; the size is that of the animation.
 /// @param samples  states during the replay, ascending in time.
-/// @throws EnvironmentError  no rendering context.
+/// @throws EnvironmentError  if there is no rendering context.
 [[nodiscard]] MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
                                            const DrawingOptions& options,
                                            const std::vector<plan::Snapshot>& samples,

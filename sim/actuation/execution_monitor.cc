@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "sim/hand/hand_finding.h"

@@ -11,7 +11,7 @@
 #include "planner/plan/plan.h"
 #include "sim/actuation/hand_sensors.h"
 #include "sim/actuation/hand_world.h"
-#include "sim/scene/hand_conditions.h"
+#include "sim/scene/settings.h"
 
 namespace regrasp::sim {
 

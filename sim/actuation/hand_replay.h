@@ -11,7 +11,6 @@
 #include "planner/plan/plan.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 #include "sim/world/replay_observer.h"
 

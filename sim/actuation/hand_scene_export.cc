@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/model_numbers.h"
+#include "sim/actuation/surface_shell.h"
 #include "sim/actuation/tip_geometry.h"
 
 namespace regrasp::sim {
@@ -189,6 +191,7 @@ namespace {
 
 constexpr const char* kMeshPrefix = "mesh_";
 constexpr const char* kTipPrefix = "regrasp_tip_";
+constexpr const char* kPiecePrefix = "regrasp_object_";
 
 XmlElement ExportElement(std::string name,
                          std::vector<std::pair<std::string, std::string>> attributes) {
@@ -221,7 +224,9 @@ class SceneWriter {
         own_tips_(options.tip == TipShape::kGeometry),
         world_(file, solid, scale, options),
         text_(kinematics::AsMjcf(file.compiled->text.files.front(),
-                                 HandSceneText(file, solid, scale, options.mass_kg))) {}
+                                 HandSceneText(file, solid, scale, options.mass_kg))) {
+    if (!IsConvex(solid)) shell_ = SurfaceShell(solid, scale);
+  }
 
   std::vector<SceneFile> Write(const std::vector<SceneKey>& keys) {
     XmlElement& root = text_.root;
@@ -233,7 +238,7 @@ class SceneWriter {
     SetOptions(Section(root, "option"));
     WriteModelNumbers(world_.model(), root);
     SetBodies();
-    SetContacts(Section(root, "contact"));
+    AddContacts();
     XmlElement& frames = Section(root, "keyframe");
     for (const SceneKey& key : keys) {
       frames.children.push_back(ExportElement("key", {{"name", key.name},
@@ -296,7 +301,9 @@ class SceneWriter {
   }
 
   void SetBodies() {
-    Section(text_.root, "asset").children.push_back(ObjectMesh());
+    XmlElement& assets = Section(text_.root, "asset");
+    assets.children.push_back(ObjectMesh());
+    for (std::size_t i = 0; i < shell_.size(); ++i) assets.children.push_back(PieceMesh(i));
     ForEach(text_.root, [&](XmlElement& element) {
       const std::string* name = element.Find("name");
       if (element.name == "geom") {
@@ -307,10 +314,28 @@ class SceneWriter {
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
       } else if (element.name == "body" && name != nullptr) {
-        if (*name == kHandSceneObject) element.children.push_back(OriginSite());
+        if (*name == kHandSceneObject) AddToObject(element);
         AddTip(*name, element);
       }
     });
+  }
+
+  /// Add the site of the origin, and the pieces that collide in place of a nonconvex object.
+  void AddToObject(XmlElement& body) {
+    body.children.push_back(OriginSite());
+    for (std::size_t i = 0; i < shell_.size(); ++i) {
+      body.children.push_back(ExportElement("geom", {{"name", PieceName(i)},
+                                                     {"type", "mesh"},
+                                                     {"mesh", PieceName(i)},
+                                                     {"mass", "0"},
+                                                     {"group", "3"},
+                                                     {"contype", "0"},
+                                                     {"conaffinity", "0"}}));
+    }
+  }
+
+  [[nodiscard]] static std::string PieceName(std::size_t piece) {
+    return kPiecePrefix + std::to_string(piece);
   }
 
   void AddTip(const std::string& body, XmlElement& element) {
@@ -342,22 +367,31 @@ class SceneWriter {
 
   /// Return the object's mesh about its centroid, in metres.
   [[nodiscard]] XmlElement ObjectMesh() const {
-    std::vector<double> vertices;
+    std::vector<Eigen::Vector3d> vertices;
     for (const Eigen::Vector3d& vertex : solid_.vertices()) {
-      const Eigen::Vector3d at = scale_ * (vertex - solid_.mass_properties().centroid);
-      vertices.insert(vertices.end(), at.begin(), at.end());
+      vertices.emplace_back(scale_ * (vertex - solid_.mass_properties().centroid));
     }
+    return Mesh(kHandSceneObject, vertices, solid_.triangles());
+  }
+
+  [[nodiscard]] XmlElement PieceMesh(std::size_t piece) const {
+    return Mesh(PieceName(piece), shell_[piece], {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}});
+  }
+
+  [[nodiscard]] static XmlElement Mesh(const std::string& name,
+                                       std::span<const Eigen::Vector3d> vertices,
+                                       const std::vector<std::array<int, 3>>& triangles) {
+    std::vector<double> numbers;
+    for (const Eigen::Vector3d& at : vertices) numbers.insert(numbers.end(), at.begin(), at.end());
     std::string faces;
-    for (const auto& triangle : solid_.triangles()) {
+    for (const auto& triangle : triangles) {
       for (const int corner : triangle)
         faces += (faces.empty() ? "" : " ") + std::to_string(corner);
     }
-    return ExportElement("mesh",
-                         // The hand's model may have a default scale of meshes.
-                         {{"name", kHandSceneObject},
-                          {"scale", "1 1 1"},
-                          {"vertex", NumbersText(vertices)},
-                          {"face", faces}});
+    return ExportElement(
+        "mesh",
+        // The hand's model may have a default scale of meshes.
+        {{"name", name}, {"scale", "1 1 1"}, {"vertex", NumbersText(numbers)}, {"face", faces}});
   }
 
   /// Name the colliding geoms of a fingertip's link.
@@ -375,18 +409,26 @@ class SceneWriter {
     }
   }
 
-  void SetContacts(XmlElement& section) const {
-    std::erase_if(section.children, [](const XmlElement& child) { return child.name == "pair"; });
+  /// Add contacts of each fingertip with the object or each of its pieces.
+  void AddContacts() {
+    XmlElement& defaults = Section(text_.root, "default");
+    std::erase_if(defaults.children, [](const XmlElement& child) { return child.name == "pair"; });
     const std::string mu = FormatDouble(mu_);
+    defaults.children.push_back(ExportElement(
+        "pair", {{"condim", "3"},
+                 {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
+                 {"solref", FormatDouble(kTipContactTime) + " 1"},
+                 {"solimp", NumbersText(kTipImpedance.data(), kTipImpedance.size())}}));
+    XmlElement& contacts = Section(text_.root, "contact");
+    std::erase_if(contacts.children, [](const XmlElement& child) { return child.name == "pair"; });
     for (const std::string& tip : tips_) {
-      section.children.push_back(ExportElement(
-          "pair", {{"geom1", tip},
-                   {"geom2", kHandSceneObject},
-                   {"condim", "3"},
-                   {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
-                   {"solref", FormatDouble(kTipContactTime) + " 1"},
-                   {"solimp", NumbersText(kTipImpedance.data(), kTipImpedance.size())}}));
+      if (shell_.empty()) AddContact(contacts, tip, kHandSceneObject);
+      for (std::size_t i = 0; i < shell_.size(); ++i) AddContact(contacts, tip, PieceName(i));
     }
+  }
+
+  static void AddContact(XmlElement& contacts, const std::string& tip, const std::string& object) {
+    contacts.children.push_back(ExportElement("pair", {{"geom1", tip}, {"geom2", object}}));
   }
 
   const kinematics::HandFile& file_;
@@ -396,6 +438,7 @@ class SceneWriter {
   bool own_tips_;
   HandWorld world_;
   kinematics::ModelText text_;
+  std::vector<ShellPiece> shell_;  ///< of a nonconvex object
   std::vector<std::string> tips_;  ///< names of the geoms that touch the object
 };
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "sim/actuation/hand_world.h"
-#include "sim/scene/hand_conditions.h"
+#include "sim/scene/settings.h"
 
 namespace regrasp::sim {
 

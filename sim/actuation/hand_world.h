@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/collision/ball_contact.h"
+#include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
@@ -17,7 +17,6 @@
 #include "sim/actuation/hand_links.h"
 #include "sim/actuation/joint_couplings.h"
 #include "sim/scene/engine.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;

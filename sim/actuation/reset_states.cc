@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "planner/base/in_blocks.h"
-#include "planner/base/npz.h"
 #include "planner/base/random.h"
+#include "planner/base/zip_archive.h"
 #include "planner/grasp/grasp_forces.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/torque_grasp_force.h"

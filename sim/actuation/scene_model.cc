@@ -12,13 +12,18 @@ namespace {
 constexpr double kFrictionHardness = 100;
 /// The same of TipContactModel::kDefault, as in the hands of MuJoCo Menagerie.
 constexpr double kDefaultFrictionHardness = 10;
-/// Armature of frozen joints, kg m².
+/// Armature of frozen joints, kg m², and their damping, N·m·s/rad. A torque of 1 N·m moves such a
+/// joint by less than 1e-4 rad in a minute. The armature alone would let it fall by 1.8 rad.
 constexpr double kFrozenArmature = 1e3;
+constexpr double kFrozenDamping = 1e6;
 
 }  // namespace
 
 void FreezeJoints(const std::vector<int>& joints, mjModel& model) {
-  for (const int joint : joints) model.dof_armature[model.jnt_dofadr[joint]] += kFrozenArmature;
+  for (const int joint : joints) {
+    model.dof_armature[model.jnt_dofadr[joint]] += kFrozenArmature;
+    model.dof_damping[model.jnt_dofadr[joint]] += kFrozenDamping;
+  }
 }
 
 void SetReplayOptions(const Eigen::Vector3d& gravity, const HandPhysics& physics,

@@ -3,14 +3,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/scene/hand_conditions.h"
+#include "sim/scene/settings.h"
 
 struct mjModel_;
 struct mjData_;
 
 namespace regrasp::sim {
 
-/// Freeze joints of no finger by an armature that no torque of a hand moves.
+/// Freeze joints of no finger by an armature and a damping that no torque of a hand moves.
 /// @param joints  revolute and prismatic joints of the model.
 void FreezeJoints(const std::vector<int>& joints, mjModel_& model);
 

@@ -97,8 +97,9 @@ TipSurface::TipSurface(const kinematics::HandFile& file, TipShape tip,
   const std::vector<TipShapes> shapes = TipShapesOf(file, tip);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const auto& ball = file.description.tips[i];
-    Tip& made = tips_.emplace_back(Tip{shapes[i], ball.centre, ball.radius});
-    for (const collision::ConvexShape& shape : made.shapes) {
+    Tip& made = tips_.emplace_back(
+        Tip{Shapes(shapes[i].begin(), shapes[i].end()), ball.centre, ball.radius});
+    for (const collision::ConvexShape& shape : shapes[i]) {
       for (const Vector3d& point : shape.points) {
         made.reach = std::max(made.reach, (point - made.centre).norm() + shape.radius);
       }
@@ -127,10 +128,11 @@ std::vector<SurfaceContact> TipSurface::FindContacts(FingerIndex finger, const I
     tip.around = centre;
     tip.triangles = surface_.Around(centre, reach + kNeighbourhood);
   }
-  TipShapes placed = tip.shapes;
+  Shapes placed = tip.shapes;
   std::vector<SurfaceContact> contacts;
-  for (collision::ConvexShape& shape : placed) {
-    for (Vector3d& point : shape.points) point = to_object * (link * point);
+  for (collision::TreeShape& shape : placed) {
+    shape.points.Move(link);
+    shape.points.Move(to_object);
     const auto found = collision::FindContacts(surface_, shape, *tip.triangles);
     contacts.insert(contacts.end(), found.begin(), found.end());
   }
@@ -145,9 +147,9 @@ std::vector<SurfaceContact> TipSurface::FindContacts(FingerIndex finger, const I
   return contacts;
 }
 
-std::optional<SurfaceContact> TipSurface::NearestTo(const TipShapes& placed, const Tip& tip) const {
+std::optional<SurfaceContact> TipSurface::NearestTo(const Shapes& placed, const Tip& tip) const {
   std::optional<SurfaceContact> best;
-  for (const collision::ConvexShape& shape : placed) {
+  for (const collision::TreeShape& shape : placed) {
     const auto near = collision::FindNearest(surface_, shape, shape.radius + kNear, *tip.triangles);
     if (near && (!best || near->gap < best->gap)) best = near;
   }

@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "planner/base/index.h"
-#include "planner/collision/ball_contact.h"
 #include "planner/collision/convex_shape.h"
 #include "planner/collision/shape_contact.h"
 #include "planner/kinematics/hand_file.h"
-#include "sim/scene/hand_conditions.h"
 #include "sim/scene/settings.h"
 
 struct mjModel_;
@@ -109,8 +107,9 @@ class TipSurface {
   inline static constexpr double kNear = 5e-3;
 
  private:
+  using Shapes = std::vector<collision::TreeShape>;
   struct Tip {
-    TipShapes shapes;
+    Shapes shapes;
     Eigen::Vector3d centre;  ///< centre of the sphere
     double radius;
     double reach = 0;  ///< largest distance of the shapes from the sphere's centre
@@ -119,7 +118,7 @@ class TipSurface {
     Eigen::Vector3d around = Eigen::Vector3d::Zero();
     std::optional<std::vector<int>> triangles = std::nullopt;
   };
-  [[nodiscard]] std::optional<collision::SurfaceContact> NearestTo(const TipShapes& placed,
+  [[nodiscard]] std::optional<collision::SurfaceContact> NearestTo(const Shapes& placed,
                                                                    const Tip& tip) const;
 
   collision::BallContact surface_;

@@ -1,7 +1,7 @@
 #include "sim/actuation/trajectory.h"
 
-#include "planner/base/npz.h"
 #include "planner/base/number.h"
+#include "planner/base/zip_archive.h"
 
 namespace regrasp::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "sim/actuation/hand_world.h"
 
 namespace regrasp::sim {

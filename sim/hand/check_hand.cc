@@ -7,6 +7,7 @@
 
 #include "planner/base/error.h"
 #include "planner/plan/plan.h"
+#include "sim/hand/check_goals.h"
 #include "sim/hand/hand_body.h"
 #include "sim/hand/hand_finding.h"
 
@@ -34,8 +35,6 @@ constexpr double kSlack = 1e-6;         // subtracted from the clearance
 /// Motion between two samples, in metres, at which the subdivision stops. A pair that is not proved
 /// to be clear by then is too close.
 constexpr double kFinest = 1e-4;
-constexpr double kGoalPlace = 1e-6;
-constexpr double kGoalTurn = 1e-6;
 
 /// Number of samples of a path in the search for its smallest gap.
 constexpr int kMostSamples = 96;
@@ -92,12 +91,14 @@ class Checker {
     };
     holding_ = plan_.initial;
     state_ = plan_.hand->initial;
-    take(plan::EntryIndex{0}, CheckRest());
+    MaybeFault at_start = CheckRest();
+    if (!at_start) at_start = CheckGoals(plan_, 0, state_);
+    take(plan::EntryIndex{0}, at_start);
     if (!faults.empty()) return faults;
     for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
       const plan::EntryIndex entry(static_cast<int>(i) + 1);
       MaybeFault fault = CheckStep(plan_.steps[i]);
-      if (!fault && i + 1 == plan_.steps.size()) fault = CheckGoal();
+      if (!fault) fault = CheckGoals(plan_, entry, state_);
       take(entry, fault);
       if (fault) return faults;
     }
@@ -136,7 +137,6 @@ class Checker {
                             const plan::FingerGrasp& still);
   MaybeFault CheckStaysPut(const HandState& now, const HandState& before,
                            const std::string& what) const;
-  MaybeFault CheckGoal() const;
   /// Check everything between two consecutive instants of a path.
   /// @param index  number of the second state.
   /// @param others  contacts that fingers approach or leave.
@@ -458,14 +458,6 @@ MaybeFault Checker::CheckStep(const plan::Step& step) {
   }
   holding_ = plan::GraspAfter(holding_, step);
   return fault;
-}
-
-MaybeFault Checker::CheckGoal() const {
-  const Isometry3d& goal = plan_.hand->goal;
-  const double off = (goal.translation() - state_.pose.translation()).norm();
-  const double turn = TurnBetween(goal, state_.pose);
-  if (off <= kGoalPlace && turn <= kGoalTurn) return std::nullopt;
-  return GoalMissed(state_, goal);
 }
 
 /// Describe the difference of two hands by their names, or by their digests if the names are equal.

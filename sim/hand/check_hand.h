@@ -25,7 +25,7 @@ struct HandCheckOptions {
 /// - No link is closer to another link, to the palm or to the object than the clearance, anywhere
 ///   on the paths. This is certified by a bound on motion between samples. A fingertip in contact,
 ///   or about to be, may touch the object and penetrate it by up to 0.3 mm.
-/// - The object ends at the goal pose of the plan.
+/// - The object ends at the goal pose of the plan, and is in each goal set that the plan marks.
 ///
 /// @param plan  plan with a hand, located (plan::ProjectPlan).
 /// @returns the first fault of each entry that has one. Later entries are checked as if the earlier

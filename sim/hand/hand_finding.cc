@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 
 namespace regrasp::sim {
@@ -165,6 +164,22 @@ HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
   place.state = last;
   place.pose = goal;
   place.number = MotionText(last.pose, goal);
+  return finding;
+}
+
+HandFinding GoalSetMissed(const HandState& now, const plan::GoalMark& goal) {
+  const plan::GoalDistance off = goal.set.Distance(now.pose);
+  std::string far = off.length > 0 ? FormatLength(off.length) : "";
+  if (off.angle > 0) far += (far.empty() ? "" : " and ") + DegreesText(off.angle);
+  HandFinding finding{
+      Reason::kGoalNotReached,
+      "the object is " + far + " outside " +
+          (goal.name.empty() ? "its goal set" : "the set of goal \"" + goal.name + "\""),
+      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = now;
+  place.pose = goal.set.Nearest(now.pose);
+  place.number = far;
   return finding;
 }
 

@@ -34,6 +34,9 @@ struct HandFinding {
 /// Report a final object pose that differs from the goal.
 [[nodiscard]] HandFinding GoalMissed(const plan::HandState& last, const Eigen::Isometry3d& goal);
 
+/// Report an object pose outside a goal set.
+[[nodiscard]] HandFinding GoalSetMissed(const plan::HandState& now, const plan::GoalMark& goal);
+
 /// Report a discontinuous joint angle.
 /// @param joint  joint of the finger, from the palm on.
 [[nodiscard]] HandFinding JointJumps(HandBody& body, const plan::HandState& now, FingerIndex finger,

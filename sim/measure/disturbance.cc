@@ -4,11 +4,11 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/grasp/largest_load.h"
-#include "sim/control/motions.h"
+#include "planner/grasp/grasp_forces.h"
+#include "planner/plan/plan.h"
+#include "sim/control/slide.h"
 #include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"
-#include "sim/world/stillness.h"
 
 namespace regrasp::sim {
 
@@ -201,6 +201,37 @@ std::vector<ResistedWrench> MeasureResistedWrenches(ReplayWorld& world) {
         {disturbance, SearchReplay(world, rest, disturbance), SearchAnalysis(world, disturbance)});
   }
   return all;
+}
+
+std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& projected, plan::EntryIndex index) {
+  if (index == 0) return {projected.initial};
+  plan::FingerGrasp before = projected.initial;
+  for (plan::EntryIndex earlier{1}; earlier < index; ++earlier) {
+    before = plan::GraspAfter(before, plan::StepOf(projected, earlier));
+  }
+  const plan::Step& step = plan::StepOf(projected, index);
+  if (const auto* align = std::get_if<plan::Align>(&step)) return align->waypoints;
+  return {before, plan::GraspAfter(before, step)};
+}
+
+std::optional<NeedOfFinger> WeakestFingers::OfEntry(plan::EntryIndex index) {
+  std::optional<NeedOfFinger> weakest;
+  for (const plan::FingerGrasp& grasp : GraspsOfEntry(projected_, index)) {
+    const std::optional<NeedOfFinger> need = OfGrasp(grasp);
+    if (!need) continue;
+    if (!weakest || grasp::WeakestFinger({weakest->friction, need->friction}) == 1) weakest = need;
+  }
+  return weakest;
+}
+
+std::optional<NeedOfFinger> WeakestFingers::OfGrasp(const plan::FingerGrasp& grasp) {
+  if (plan::AreIdentical(grasp, last_)) return last_weakest_;
+  last_ = grasp;
+  last_weakest_.reset();
+  if (grasp.empty()) return last_weakest_;
+  const auto found = grasp::FindWeakestFinger(plan::ContactsOf(grasp), frame_, friction_angle_);
+  if (found) last_weakest_ = {grasp[found->finger].finger, found->friction};
+  return last_weakest_;
 }
 
 }  // namespace regrasp::sim

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/grasp/grasp_forces.h"
+#include "planner/object/wrench_frame.h"
+#include "planner/plan/plan.h"
 #include "sim/scene/measured.h"
 #include "sim/world/replay_world.h"
-#include "sim/world/stillness.h"
 
 namespace regrasp::sim {
 
@@ -39,8 +41,9 @@ enum class DisturbanceResponse {
 /// Apply the disturbance test to a static grasp.
 /// In every direction, one after the other, it applies a force of disturbance_ratio · grasp force,
 /// then a torque of that over R, in addition to the weight. Each lasts until everything is still
-/// (sim/world/stillness.h). The world's monitor measures; the test stops at the first disturbance
-/// that the grasp does not resist. Afterwards the world is restored, even after an exception.
+/// (sim/world/replay_world.h). The world's monitor measures; the test stops at the first
+/// disturbance that the grasp does not resist. Afterwards the world is restored, even after an
+/// exception.
 /// @param on_fault  callback before the world is restored after the failing disturbance.
 /// @throws UnstableError  if the simulation becomes unstable.
 void ApplyDisturbances(
@@ -94,5 +97,37 @@ class ReplayWorld;
 
 inline constexpr double kResistedGap = 0.01;    ///< over the limit
 inline constexpr double kLeastResisted = 1e-4;  ///< difference below which disturbances are equal
+
+/// Weakest fingers of the static grasps of an entry: those with the smallest friction margin of
+/// their own.
+/// The grasps of an entry are the initial grasp, or those before and after a finger switch, or
+/// those at the waypoints of a sliding step. The criterion is that of
+/// planner/grasp/required_friction_angle.h; among equal fingers, the first.
+class WeakestFingers {
+ public:
+  /// @param located  plan with contacts on the surface, in the unit of `frame`; must outlive this
+  ///     object.
+  WeakestFingers(const plan::Plan& projected, const object::WrenchFrame& frame,
+                 double friction_angle)
+      : projected_(projected), frame_(frame), friction_angle_(friction_angle) {}
+
+  /// Return the weakest finger of an entry.
+  /// @returns nullopt if the entry has no contacts, or none of its grasps is force closure.
+  [[nodiscard]] std::optional<NeedOfFinger> OfEntry(plan::EntryIndex index);
+
+ private:
+  std::optional<NeedOfFinger> OfGrasp(const plan::FingerGrasp& grasp);
+
+  const plan::Plan& projected_;
+  object::WrenchFrame frame_;
+  double friction_angle_;
+  // Last grasp of the previous entry, which is the first of the next one.
+  plan::FingerGrasp last_;
+  std::optional<NeedOfFinger> last_weakest_;
+};
+
+/// Return the grasps of an entry in order of time (see WeakestFingers).
+[[nodiscard]] std::vector<plan::FingerGrasp> GraspsOfEntry(const plan::Plan& projected,
+                                                           plan::EntryIndex index);
 
 }  // namespace regrasp::sim

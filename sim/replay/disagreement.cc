@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "planner/criteria/reach.h"
 #include "planner/grasp/grasp_forces.h"
-#include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
 #include "sim/measure/disturbance.h"
-#include "sim/measure/weakest_finger.h"
 #include "sim/scene/scaling.h"
 #include "sim/world/motion_monitor.h"
 

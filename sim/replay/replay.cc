@@ -6,14 +6,12 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/grasp/grasp_forces.h"
-#include "sim/control/motions.h"
 #include "sim/control/slide.h"
 #include "sim/measure/disturbance.h"
 #include "sim/scene/align_script.h"
 #include "sim/scene/scene.h"
 #include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"
-#include "sim/world/stillness.h"
 
 namespace regrasp::sim {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
-#include "planner/plan/snapshot.h"
 #include "sim/scene/measured.h"
 #include "sim/scene/settings.h"
 #include "sim/world/replay_observer.h"

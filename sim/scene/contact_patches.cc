@@ -16,9 +16,9 @@
 #include <optional>
 #include <utility>
 
-#include "planner/object/closest_on_segment.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/segment.h"
 
 namespace regrasp::sim {
 

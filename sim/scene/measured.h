@@ -3,14 +3,14 @@
 #include <map>
 #include <string>
 
-#include "planner/grasp/finger_friction.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/reason.h"
 
 namespace regrasp::sim {
 
 // Measurements of a replay as plain values, which reports contain.
 
-/// Shares of the travel of a sliding step, summed over its contacts, by the way of execution. They
+/// Shares of the travel of a sliding step, summed over its contacts, by the kind of motion. They
 /// sum to 1. If the step only turns normals, they are shares of the subpaths between waypoints.
 struct AlignShares {
   double imitated = 0;
@@ -46,7 +46,7 @@ struct ResistedWrench {
   /// Largest value that the object withstands in the replay, by bisection; 0 if it withstands none.
   double replay = 0;
   /// Largest value that forces inside the cones balance at the planned contacts with the same grasp
-  /// force (planner/grasp/largest_load.h); 0 if they do not balance the weight.
+  /// force (planner/grasp/grasp_forces.h); 0 if they do not balance the weight.
   double analysis = 0;
 };
 

@@ -9,7 +9,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/grasp/largest_load.h"
+#include "planner/grasp/grasp_forces.h"
 
 namespace regrasp::sim {
 

@@ -8,12 +8,12 @@
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/certificate/plan_proof.h"
-#include "planner/grasp/bound_quality.h"
+#include "planner/grasp/quality.h"
 #include "planner/object/body_measures.h"
 #include "planner/object/polygon.h"
 #include "planner/object/polyhedron.h"
 #include "sim/actuation/tip_geometry.h"
-#include "sim/measure/weakest_finger.h"
+#include "sim/measure/disturbance.h"
 #include "sim/scene/scaling.h"
 
 namespace regrasp::validation {
@@ -240,6 +240,7 @@ ValidationResult Validate(const ValidationRequest& request, const ValidationObse
     ExamineSteps(request.object, plan, passing, report);
   }
   SkipAfterFailure(report.steps);
+  if (request.hand != nullptr) report.goals = EvaluateGoals(plan, report);
   if (request.is_grasp) MeasureGrasp(request.object, plan, report);
   if (request.options.trials.count > 0 && report.passed()) RunTrials(request, observer, result);
   if (!request.options.conditions.empty() && result.settings.hand &&

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/certificate/force_proof.h"
-#include "planner/grasp/finger_friction.h"
 #include "planner/grasp/quality.h"
+#include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/motion_segment.h"
 #include "planner/plan/check.h"
 #include "planner/plan/contact_region.h"
@@ -15,6 +15,7 @@
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/measured.h"
+#include "sim/validation/goal_report.h"
 
 namespace regrasp::validation {
 
@@ -91,6 +92,8 @@ struct Report {
   std::optional<sim::TrialSummary> trials = std::nullopt;
   /// Replays under other conditions, if they were requested and all steps pass the analytic check.
   std::optional<sim::ConditionSummary> conditions = std::nullopt;
+  /// Goals that the plan marks, if its hand was checked.
+  std::vector<GoalReport> goals = {};
   std::optional<RunRecord> run = std::nullopt;
 
   /// Return whether all steps pass, and enough trials and conditions if there are any.
@@ -101,7 +104,7 @@ struct Report {
   [[nodiscard]] plan::EntryIndex weakest_step() const;
   /// Return the results of the analytic check; steps after a failure in the replay are skipped.
   [[nodiscard]] std::vector<plan::StepCheck> checks() const;
-  /// Return the first step with the weakest finger of all (sim/measure/weakest_finger.h).
+  /// Return the first step with the weakest finger of all (sim/measure/disturbance.h).
   /// It is not valid if no step has one.
   [[nodiscard]] plan::EntryIndex weakest_finger_step() const;
 };

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 
 namespace regrasp::sim {

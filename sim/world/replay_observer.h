@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "planner/plan/plan.h"
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::sim {
 

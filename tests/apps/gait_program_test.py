@@ -127,6 +127,115 @@ class Gait(ProgramCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr)
 
+    def goals(self, *goals):
+        return {"format": "regrasp-goals", "version": 1, "goals": list(goals)}
+
+    def facing(self, name, axis, direction="up", degrees=30):
+        return {"name": name, "facing": {"axis": axis, "direction": direction,
+                                         "tolerance_deg": degrees}}
+
+    def quick(self, *more, output="plan.json"):
+        return self.arguments("--robustness", "none", *more, output=output)
+
+    def test_a_plan_reaches_its_goal_set(self):
+        self.assert_done(*self.quick("--goal-facing", "1,0,1,up,30"))
+        plan = json.loads(self.read("plan.json"))
+        (goal,) = plan["hand"]["goals"]
+        self.assertEqual(goal["step"], len(plan["steps"]))
+        self.assertEqual(goal["facing"]["tolerance_deg"], 30)
+        by_hand = ("--hand", self.hand("ring4"), "--replay", "points", "--frames", "none")
+        done, report = self.validate(plan, *by_hand)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("tolerance", done.stdout)
+        (row,) = report["goals"]
+        self.assertEqual(row["verdict"], "pass")
+        self.assertAlmostEqual(row["tolerance_deg"], 30, delta=1e-9)
+        self.assertLessEqual(row["off_deg"], 30)
+        # An end outside the set fails.
+        goal["facing"]["axis"] = [-1, 0, 0]
+        done, report = self.validate(plan, *by_hand)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("goal-not-reached", done.stdout)
+        self.assertIn("outside its goal set", done.stdout)
+        self.assertEqual(report["goals"][0]["verdict"], "fail")
+        goal["step"] += 1
+        self.write_json("plan.json", plan)
+        self.assert_refused(2, "/hand/goals: a goal is marked after step", "--object",
+                            self.model("cube.obj"), "--plan", "plan.json", program="validate")
+
+    def test_a_list_of_goals_gives_one_plan(self):
+        self.write_json("goals.json", self.goals(self.facing("a", [1, 0, 1]),
+                                                 self.facing("b", [-1, 0, 1])))
+        done = self.assert_done(*self.quick("--goals", "goals.json"))
+        self.assertIn("goals: a after step", done.stderr)
+        plan = json.loads(self.read("plan.json"))
+        self.assertEqual([goal["name"] for goal in plan["hand"]["goals"]], ["a", "b"])
+        done, report = self.validate(plan, "--hand", self.hand("ring4"), "--replay", "points",
+                                     "--frames", "none")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual([(row["name"], row["verdict"]) for row in report["goals"]],
+                         [("a", "pass"), ("b", "pass")])
+        page = self.read("result/report.html")
+        self.assertIn(b"<h2>Goals</h2>", page)
+
+    def test_a_plan_continues_another_one(self):
+        self.assert_done(*self.quick("--turn", "z,30", output="first.json"))
+        more = ("--continue", "first.json", "--turn", "z,20")
+        self.assert_done(*self.quick(*more, output="second.json"))
+        first, second = (json.loads(self.read(name)) for name in ("first.json", "second.json"))
+        end = first["steps"][-1]["path"][-1]
+        for name, found in second["hand"]["initial"]["pose"].items():
+            for value, expected in zip(found, end["pose"][name]):
+                self.assertAlmostEqual(value, expected, delta=1e-9)
+        for joints, expected in zip(second["hand"]["initial"]["joints"], end["joints"]):
+            for value, angle in zip(joints, expected):
+                self.assertAlmostEqual(value, angle, delta=1e-9)
+        self.assert_refused(2, "the plan is for another hand", "--object", self.model("cube.obj"),
+                            "--scale", "0.8", "--mu", "0.8", "--hand", self.hand("ring5"),
+                            "--output", "third.json", *more)
+        self.assert_refused(2, "must be the scale of the plan", "--object", self.model("cube.obj"),
+                            "--scale", "0.7", "--mu", "0.8", "--hand", self.hand("ring4"),
+                            "--output", "third.json", *more)
+        self.assert_refused(2, "prism.obj", "--object", self.model("prism.obj"),
+                            "--scale", "0.8", "--mu", "0.8", "--hand", self.hand("ring4"),
+                            "--output", "third.json", *more)
+        self.assert_refused(2, "--continue: cannot be used with --start-pose",
+                            *self.quick(*more, "--start-pose", "0,0,0.1,1,0,0,0"))
+
+    def test_bad_goals_are_one_line(self):
+        facing = self.facing
+        cases = {
+            "/goals: must not be empty": self.goals(),
+            'unknown member "more"': {**self.goals(facing("a", "x")), "more": 1},
+            "/goals/1/name: must be unique": self.goals(facing("a", "x"), facing("a", "y")),
+            "/goals/0/facing/axis: must not be a zero vector": self.goals(facing("a", [0, 0, 0])),
+            "/goals/0/facing/tolerance_deg: must be between": self.goals(facing("a", "x", "up", -1)),
+            "/goals/0/facing/direction: expected 3 numbers":
+                self.goals(facing("a", "x", "left")),
+            "/goals/0: expected either": self.goals({"name": "a"}),
+            "/goals/0/pose: member \"quaternion\" not found":
+                self.goals({"name": "a", "pose": {"position": [0, 0, 0.1]}}),
+        }
+        texts = {words: json.dumps(value) for words, value in cases.items()}
+        texts["goals.json: "] = json.dumps(self.goals(facing("a", "x"))).replace("30", "NaN")
+        texts["goals.json"] = "[" * 10_000_000
+        for words, text in texts.items():
+            self.write("goals.json", text)
+            done = self.run_program(*self.quick("--goals", "goals.json"))
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr[:500])
+        for more, words in ((("--goal-facing", "x,up"), "--goal-facing: expected an axis"),
+                            (("--goal-facing", "0,0,0,up,30"), "zero vector"),
+                            (("--goal-facing", "x,up,-1"), "degrees must be between 0.01 and 180"),
+                            (("--goal-facing", "x,up,nan"), "--goal-facing: expected an axis"),
+                            (("--goal-facing", "x,up,30", "--turn", "z,30"), "cannot be used with --turn"),
+                            (("--turn", "z,30", "--goal-tolerance", "5mm,10"), "expected metres and degrees"),
+                            (("--turn", "z,30", "--goal-tolerance", "0,10"), "metres must be between"),
+                            (("--goal-tolerance", "0.01,10", "--goal-facing", "x,up,30"),
+                             "--goal-tolerance: requires --goal-pose or --turn")):
+            self.assert_refused(2, words, *self.quick(*more))
+
     def check_conditions(self, plan, by_hand):
         """Conditions are rows of the report, and decide only if they are required."""
         self.write("conditions.json", json.dumps([{"name": "heavy", "mass_factor": 1.1},

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <vector>
 
-#include "apps/batch/line_input.h"
 #include "apps/batch/line_output.h"
+#include "apps/batch/line_records.h"
 #include "apps/batch/merge_lines.h"
 #include "hostile_input.h"
 #include "planner/base/error.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "hostile_input.h"
-#include "planner/base/npz.h"
+#include "planner/base/zip_archive.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace regrasp;

@@ -9,8 +9,7 @@
 #include "hostile_input.h"
 #include "planner/base/error.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/read_3mf.h"
-#include "planner/object/read_gltf.h"
+#include "planner/object/read_object.h"
 
 namespace {
 

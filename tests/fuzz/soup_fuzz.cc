@@ -7,8 +7,8 @@
 
 #include "hostile_input.h"
 #include "planner/base/error.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
-#include "planner/object/soup_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace regrasp;

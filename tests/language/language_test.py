@@ -236,6 +236,7 @@ class Budgets(Project):
         self.assert_error("a.md: budget 2 is higher than 1 in HEAD~2", arguments=["--base", "HEAD~2"])
 
     def test_a_budget_for_a_new_file_is_refused(self):
+        self.write("a.md", "motor\n")
         self.budget(a=1)
         self.git("init", "-q")
         self.git("add", "-A")
@@ -243,6 +244,22 @@ class Budgets(Project):
         self.write("b.md", "motor\n")
         self.budget(b=1)
         self.assert_error("b.md: budget 1 is higher than 0 in HEAD")
+
+    def test_a_file_may_have_the_budgets_of_removed_files_of_its_folder(self):
+        self.write("a.md", "motor\n")
+        self.write("b.md", "motor motor\n")
+        self.write("c.md", "motor\n")
+        self.budget(a=1, b=2, c=1)
+        self.git("init", "-q")
+        self.git("add", "-A")
+        self.git("commit", "-q", "-m", "one")
+        os.remove(os.path.join(self.folder, "b.md"))
+        self.write("a.md", "motor motor motor\n")
+        self.budget(a=3, c=1)
+        self.assert_good()
+        self.write("c.md", "motor motor\n")
+        self.budget(a=3, c=2)
+        self.assert_error("c.md: budget 2 is higher than 1 in HEAD")
 
     def test_a_bad_budget_file_or_argument_is_refused_in_one_line(self):
         for text in ("{", "[1]", '{"a.md": -1}', '{"a.md": "1"}', '{"a.md": true}'):

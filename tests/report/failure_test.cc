@@ -6,7 +6,6 @@
 #include <set>
 #include <string>
 
-#include "planner/base/limit_text.h"
 #include "planner/base/number.h"
 #include "report/report_table.h"
 

@@ -8,7 +8,7 @@
 
 #include "planner/base/json.h"
 #include "planner/base/number.h"
-#include "report/junit.h"
+#include "report/markup.h"
 #include "sim/validation/validation.h"
 #include "tests/sim/replay_cases.h"
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "sim/control/motions.h"
+#include "sim/control/slide.h"
 #include "sim/world/motion_monitor.h"
 #include "sim/world/replay_world.h"
-#include "sim/world/stillness.h"
 #include "tests/sim/replay_cases.h"
 
 namespace regrasp::sim {

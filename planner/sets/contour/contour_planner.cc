@@ -8,10 +8,9 @@
 
 #include "planner/base/memory.h"
 #include "planner/object/polygon.h"
-#include "planner/sets/contour/align_route.h"
 #include "planner/sets/contour/grasp_pieces.h"
-#include "planner/sets/contour/projection_sweep.h"
-#include "planner/sets/graph_estimate.h"
+#include "planner/sets/contour/set_geometry.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_planner.h"
 
 namespace regrasp::contour {

@@ -9,8 +9,7 @@
 
 #include "planner/object/polygon.h"
 #include "planner/sets/polygon/candidates.h"
-#include "planner/sets/polygon/contact_range.h"
-#include "planner/sets/polygon/filtered_region.h"
+#include "planner/sets/polygon/convex_region.h"
 #include "planner/sets/polygon/set_cells.h"
 
 namespace regrasp::polygon {

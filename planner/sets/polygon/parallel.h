@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "planner/sets/polygon/candidates.h"
-#include "planner/sets/polygon/contact_range.h"
-#include "planner/sets/polygon/filtered_region.h"
+#include "planner/sets/polygon/convex_region.h"
 
 namespace regrasp::polygon {
 

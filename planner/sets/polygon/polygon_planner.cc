@@ -10,9 +10,9 @@
 #include "planner/base/memory.h"
 #include "planner/object/polygon.h"
 #include "planner/sets/candidate_search.h"
-#include "planner/sets/graph_estimate.h"
-#include "planner/sets/polygon/polygon_vertices.h"
+#include "planner/sets/polygon/polygon_graph.h"
 #include "planner/sets/sequence_builder.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_parameters.h"
 #include "planner/sets/set_planner.h"
 

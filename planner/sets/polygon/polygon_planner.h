@@ -11,7 +11,6 @@
 #include "planner/sets/grasp_set_model.h"
 #include "planner/sets/polygon/graph_cells.h"
 #include "planner/sets/polygon/set_cells.h"
-#include "planner/sets/polygon/switch_point.h"
 
 namespace regrasp::polygon {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "planner/object/closest_on_segment.h"
+#include "planner/object/segment.h"
 
 namespace regrasp::polyhedron {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "planner/sets/candidate_search.h"
-#include "planner/sets/polyhedron/focus_contacts.h"
-#include "planner/sets/set_sampling.h"
+#include "planner/sets/polyhedron/face_part.h"
+#include "planner/sets/set_graph.h"
 
 namespace regrasp::polyhedron {
 

@@ -7,10 +7,10 @@
 #include "planner/base/deadline.h"
 #include "planner/base/memory.h"
 #include "planner/object/polyhedron.h"
-#include "planner/sets/graph_estimate.h"
 #include "planner/sets/polyhedron/normal_quadruples.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
-#include "planner/sets/polyhedron/sampled_graph.h"
+#include "planner/sets/set_graph.h"
 #include "planner/sets/set_parameters.h"
 #include "planner/sets/set_planner.h"
 

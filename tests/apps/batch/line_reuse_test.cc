@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "apps/batch/inputs_digest.h"
 #include "apps/batch/line_run.h"
+#include "apps/batch/object_cache.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/json.h"

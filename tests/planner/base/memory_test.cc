@@ -6,8 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "planner/base/sanitizer.h"
-
 namespace regrasp {
 namespace memory_test {
 

@@ -7,7 +7,6 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
-#include "planner/base/npz.h"
 #include "planner/base/zip_archive.h"
 #include "tests/fixtures/project_path.h"
 

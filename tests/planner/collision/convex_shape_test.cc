@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "planner/base/random.h"
-#include "planner/collision/hull_distance.h"
 
 namespace regrasp::collision {
 namespace convex_shape_test {

@@ -190,18 +190,20 @@ TEST(FindGaitTest, GivenPosesAndGraspsAreKept) {
   ASSERT_TRUE(rotated.gait) << rotated.message;
   for (const bool is_backward : {false, true}) {
     GaitRequest request = RequestFor("cube", 0.5, 0);
-    request.start_pose = rotated.gait->start.pose;
-    request.goal_pose = LastPose(*rotated.gait);
+    Eigen::Isometry3d start = rotated.gait->start.pose;
+    Eigen::Isometry3d goal = LastPose(*rotated.gait);
+    if (is_backward) std::swap(start, goal);
+    request.start_pose = start;
+    request.goal.emplace(goal);
     request.start_grasp = FirstGrasp(rotated);
     request.goal_grasp = LastGrasp(rotated);
     if (is_backward) {
-      std::swap(request.start_pose, request.goal_pose);
       std::swap(request.start_grasp, request.goal_grasp);
     }
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     EXPECT_EQ(found.gait->start.pose.matrix(), request.start_pose->matrix());
-    EXPECT_LT((LastPose(*found.gait).matrix() - request.goal_pose->matrix()).norm(), 1e-12);
+    EXPECT_LT((LastPose(*found.gait).matrix() - goal.matrix()).norm(), 1e-12);
     EXPECT_EQ(Sorted(FirstGrasp(found)), Sorted(request.start_grasp));
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
   }
@@ -217,7 +219,7 @@ GaitRequest PairAtOnePose(std::uint64_t seed) {
   request.seed = seed + 1000;
   const GaitResult second = FindGait(request);
   EXPECT_TRUE(second.gait) << second.message;
-  request.goal_pose = request.start_pose;
+  request.goal = request.start_pose;
   request.start_grasp = FirstGrasp(first);
   request.goal_grasp = FirstGrasp(second);
   return request;
@@ -286,7 +288,8 @@ GaitRequest PairOneSlideApart(RobustnessLevel robustness) {
   request.robustness = robustness;
   const GaitResult first = FindGait(request);
   EXPECT_TRUE(first.gait) << first.message;
-  request.start_pose = request.goal_pose = first.gait->start.pose;
+  request.start_pose = first.gait->start.pose;
+  request.goal = request.start_pose;
   request.start_grasp = request.goal_grasp = FirstGrasp(first);
   for (grasp::Contact& contact : request.goal_grasp) {
     contact.p += 0.0015 * contact.n.unitOrthogonal();
@@ -349,7 +352,8 @@ ThreeAndFour FindThreeAndFour() {
     const auto placement =
         std::ranges::find(segments, PlanSegment::Kind::kPlace, &PlanSegment::kind);
     if (placement == segments.end()) continue;
-    found.request.start_pose = found.request.goal_pose = placement->path.back().pose;
+    found.request.start_pose = placement->path.back().pose;
+    found.request.goal = found.request.start_pose;
     found.three = GraspBefore(rotated, placement - segments.begin());
     found.four = found.three;
     found.four.push_back(rotated.contacts[placement->contact]);
@@ -420,7 +424,7 @@ TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   request.start_pose = first.gait->start.pose;
   request.most_expanded = 20;
   const auto message_at = [&](double height) {
-    request.goal_pose = Eigen::Translation3d(0, 0, height) * *request.start_pose;
+    request.goal = Eigen::Translation3d(0, 0, height) * *request.start_pose;
     const GaitResult found = FindGait(request);
     return found.gait ? std::string("found") : found.message;
   };

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/base/random.h"
-#include "planner/criteria/grasp_memory.h"
+#include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/initial_pose.h"
@@ -59,7 +59,7 @@ struct GaitWorld {
   criteria::GraspMemory memory{*request.solid, request.criteria, FingersOf(request),
                                criteria::QualityTest::kQuick};
   const ObjectTask task{request.scale * request.solid->mass_properties().centroid, request.turn,
-                        request.goal_pose};
+                        request.goal};
 };
 
 /// A GaitSearch with everything that it refers to.

@@ -55,5 +55,45 @@ TEST(PoseGridTest, ForwardAndBackwardPartsWithEqualTiltAddUpToTheRotation) {
   EXPECT_GT(equal_tilts, forward.size());
 }
 
+/// Tracks of a facing goal end in the goal set, and rotate the object about its centre.
+TEST(PoseGridTest, TracksEndInsideTheGoalSet) {
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.translation() = Vector3d(0.01, -0.02, 0.1);
+  start.linear() = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Vector3d centre(0.003, 0.001, -0.002);
+  const plan::GoalSet goal(plan::FacingGoal{Vector3d::UnitX(), Vector3d::UnitZ(), 0.5});
+  const ObjectTask task(centre, {}, goal);
+  const std::vector<PoseTrack> tracks = task.Tracks(start);
+  EXPECT_GT(tracks.size(), 1u);
+  for (const PoseTrack& track : tracks) {
+    const Eigen::Isometry3d end = track.PoseAt(track.steps());
+    EXPECT_TRUE(goal.Contains(end));
+    EXPECT_FALSE(goal.Shrunk(0, Radians(3)).Contains(end));
+    EXPECT_LT((end * centre - start * centre).norm(), 1e-12);
+    const PoseGrid grid(track, Vector3d::UnitZ(), goal);
+    int goals = 0;
+    for (int node = 0; node < grid.size(); ++node) {
+      if (!grid.IsGoal(node)) continue;
+      ++goals;
+      EXPECT_TRUE(goal.Contains(grid.PoseAt(node)));
+    }
+    EXPECT_GT(goals, 1);
+  }
+  EXPECT_LE(std::abs(tracks[0].turn().angle), std::abs(tracks[1].turn().angle));
+}
+
+/// A full rotation begins in its goal set, but only its end is a goal.
+TEST(PoseGridTest, AFullRotationEndsAfterAllButItsTolerance) {
+  const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  const Turn turn{Vector3d::UnitZ(), Radians(360)};
+  const ObjectTask task(Vector3d::Zero(), turn, {}, plan::PoseTolerance{0.01, Radians(20)});
+  const PoseTrack track = task.From(start);
+  EXPECT_NEAR(track.turn().angle, Radians(342), 1e-9);
+  const PoseGrid grid(track, Vector3d::UnitZ(), *task.GoalFrom(start));
+  EXPECT_FALSE(grid.IsGoal(grid.start()));
+  EXPECT_TRUE(grid.IsGoal(grid.goal()));
+  EXPECT_FALSE(ObjectTask(Vector3d::Zero(), turn, {}).GoalFrom(start));
+}
+
 }  // namespace pose_grid_test
 }  // namespace regrasp::gait

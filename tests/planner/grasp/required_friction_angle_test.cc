@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planner/base/number.h"
+#include "planner/base/random.h"
 #include "planner/grasp/force_closure.h"
 #include "tests/fixtures/random_grasps.h"
 
@@ -146,4 +147,135 @@ TEST(RequiredFrictionAngleTest, BadArgumentsThrow) {
 }
 
 }  // namespace required_friction_angle_test
+
+namespace finger_friction_test {
+
+using Eigen::Vector3d;
+
+const object::WrenchFrame kPlane = {{0, 0, 0}, 1, 2};
+
+Vector3d Direction(double degrees) {
+  return {std::cos(Radians(degrees)), std::sin(Radians(degrees)), 0};
+}
+
+TEST(FingerFrictionTest, EachOfTwoFingersNeedsTheAngleToTheLineBetweenThem) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(12)}, {{1, 0, 0}, Direction(180 - 4)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 2u);
+  EXPECT_NEAR(Degrees(fingers[0].required), 12, 1e-6);
+  EXPECT_NEAR(Degrees(fingers[1].required), 4, 1e-6);
+  EXPECT_TRUE(fingers[0].needed && fingers[1].needed);
+  EXPECT_EQ(WeakestFinger(fingers), 0);
+}
+
+TEST(FingerFrictionTest, AFingerThatIsNotNeededNeedsNoFriction) {
+  const Grasp grasp = {
+      {{-1, 0, 0}, Direction(3)}, {{1, 0, 0}, Direction(180)}, {{0.2, -1, 0}, Direction(90)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 3u);
+  EXPECT_FALSE(fingers[2].needed);
+  EXPECT_EQ(fingers[2].required, 0);
+  EXPECT_TRUE(fingers[0].needed && fingers[1].needed);
+  EXPECT_NE(WeakestFinger(fingers), 2);
+}
+
+TEST(FingerFrictionTest, WhereNoFingerIsNeededTheOneWhoseLossCostsMostIsTheWeakest) {
+  // Two pairs, of which the second has the larger required friction. Without a finger of the first
+  // pair, the second must hold.
+  const Grasp grasp = {{{-1, 0, 0}, Direction(3)},
+                       {{1, 0, 0}, Direction(180)},
+                       {{0, -1, 0}, Direction(90 + 9)},
+                       {{0, 1, 0}, Direction(270)}};
+  const auto fingers = MeasureFingerFriction(grasp, kPlane, Radians(20));
+  ASSERT_EQ(fingers.size(), 4u);
+  for (const FingerFriction& finger : fingers) EXPECT_FALSE(finger.needed);
+  ASSERT_TRUE(fingers[0].without && fingers[2].without);
+  EXPECT_GT(*fingers[0].without, *fingers[2].without);
+  EXPECT_LT(WeakestFinger(fingers), 2);
+}
+
+TEST(FingerFrictionTest, AGraspThatIsNotForceClosureHasNoWeakestFinger) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(12)}, {{1, 0, 0}, Direction(180 - 4)}};
+  EXPECT_TRUE(MeasureFingerFriction(grasp, kPlane, Radians(11)).empty());
+  EXPECT_EQ(WeakestFinger({}), -1);
+}
+
+TEST(FingerFrictionTest, TheFirstOfEqualFingersIsTheWeakest) {
+  const Grasp grasp = {{{0, 0, 0}, Direction(5)}, {{1, 0, 0}, Direction(180 + 5)}};
+  EXPECT_EQ(WeakestFinger(MeasureFingerFriction(grasp, kPlane, Radians(20))), 0);
+}
+
+TEST(FingerFrictionTest, RandomGraspsInSpaceObeyTheLaws) {
+  RandomStream random(5, RandomUse::kStart);
+  const object::WrenchFrame frame = {{0, 0, 0}, 1, 3};
+  const Eigen::Isometry3d motion =
+      Eigen::Translation3d(1, -2, 3) * Eigen::AngleAxisd(1.1, Vector3d(1, 2, 2).normalized());
+  int checked = 0;
+  for (int i = 0; i < 60; ++i) {
+    Grasp grasp, moved;
+    for (int finger = 0; finger < 4; ++finger) {
+      const auto draw = [&] { return 2 * random.Uniform() - 1; };
+      const Vector3d n = Vector3d(draw(), draw(), draw()).normalized();
+      grasp.push_back({-n, n});
+      moved.push_back({motion * Vector3d(-n), motion.linear() * n});
+    }
+    const auto required = ComputeRequiredFrictionAngle(grasp, frame);
+    if (!required || required->upper > Radians(60)) continue;
+    ++checked;
+    const double angle = required->upper + Radians(2);
+    const auto fingers = MeasureFingerFriction(grasp, frame, angle);
+    const auto wider = MeasureFingerFriction(grasp, frame, angle + Radians(2));
+    const auto turned = MeasureFingerFriction(moved, frame, angle);
+    ASSERT_EQ(fingers.size(), 4u);
+    for (int finger = 0; finger < 4; ++finger) {
+      EXPECT_LE(fingers[finger].required, angle);
+      EXPECT_LE(wider[finger].required, fingers[finger].required + 1e-8);
+      EXPECT_NEAR(turned[finger].required, fingers[finger].required, 1e-6);
+    }
+    // At the required friction angle one of the fingers has no friction margin.
+    const auto critical = MeasureFingerFriction(grasp, frame, required->upper);
+    ASSERT_EQ(critical.size(), 4u);
+    EXPECT_NEAR(critical[WeakestFinger(critical)].required, required->upper, 1e-5);
+  }
+  EXPECT_GT(checked, 10);
+}
+
+/// Return a random grasp, or one whose fingers are equal in pairs.
+Grasp SomeGrasp(RandomGrasps& random, int trial, int dimension) {
+  const int count = 2 + trial % 4;
+  if (trial % 3 != 0) return random.OnBall(count, dimension);
+  Grasp grasp = random.OnBall(count, dimension, 0);
+  const std::size_t drawn = grasp.size();
+  for (std::size_t i = 0; i < drawn; ++i) grasp.push_back({-grasp[i].p, -grasp[i].n});
+  return grasp;
+}
+
+TEST(FingerFrictionTest, TheWeakestFingerAloneIsThatOfAllToTheLastBit) {
+  RandomGrasps random(6);
+  int found = 0, not_needed = 0, none = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const Grasp grasp = SomeGrasp(random, trial, dimension);
+    const double friction_angle = random.Uniform(Radians(10), Radians(60));
+    const auto all = MeasureFingerFriction(grasp, UnitFrame(dimension), friction_angle);
+    const auto alone = FindWeakestFinger(grasp, UnitFrame(dimension), friction_angle);
+    ASSERT_EQ(all.empty(), !alone.has_value()) << trial;
+    if (!alone) {
+      ++none;
+      continue;
+    }
+    const FingerFriction& expected = all[alone->finger];
+    EXPECT_EQ(alone->finger, WeakestFinger(all)) << trial;
+    EXPECT_EQ(alone->friction.required, expected.required) << trial;
+    EXPECT_EQ(alone->friction.needed, expected.needed) << trial;
+    EXPECT_EQ(alone->friction.without, expected.without) << trial;
+    ++found;
+    not_needed += expected.needed ? 0 : 1;
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(not_needed, 10);
+  EXPECT_GT(none, 20);
+}
+
+}  // namespace finger_friction_test
 }  // namespace regrasp::grasp

@@ -11,12 +11,10 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/cone_support.h"
-#include "planner/grasp/finger_friction.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/grasp_forces.h"
-#include "planner/grasp/largest_load.h"
 #include "planner/grasp/quality.h"
-#include "planner/grasp/quality_filter.h"
+#include "planner/grasp/quality_rays.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/grasp/subset_force_closure.h"
 #include "pyramid_program.h"

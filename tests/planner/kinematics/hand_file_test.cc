@@ -9,7 +9,6 @@
 
 #include "planner/base/random.h"
 #include "planner/kinematics/finger_kinematics.h"
-#include "planner/kinematics/inverse_kinematics.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::kinematics {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "planner/grasp/contact.h"
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/object/wrench_frame.h"
 
 namespace regrasp::motion {

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 
 namespace regrasp::object {
 namespace facet_triangulation_test {

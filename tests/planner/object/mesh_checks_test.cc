@@ -10,7 +10,6 @@
 #include <numbers>
 #include <random>
 
-#include "planner/object/face_joining.h"
 #include "planner/object/facet_triangulation.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/weld.h"

@@ -12,9 +12,9 @@
 #include "planner/base/file.h"
 #include "planner/object/limited_child.h"
 #include "planner/object/object.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "planner/object/read_object.h"
-#include "planner/object/soup_bytes.h"
 #include "tests/fixtures/project_path.h"
 
 namespace regrasp::object {

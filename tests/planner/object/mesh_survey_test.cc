@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/object/mesh_defect.h"
 #include "planner/object/object.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
 #include "tests/fixtures/soups.h"
 

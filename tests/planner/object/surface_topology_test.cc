@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/triangle_mesh.h"
 #include "tests/fixtures/soups.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "tests/fixtures/soups.h"
 
 namespace regrasp::object {

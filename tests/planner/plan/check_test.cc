@@ -9,7 +9,7 @@
 #include "check_expectations.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
-#include "planner/object/given_points.h"
+#include "planner/object/read_object.h"
 #include "sample_plans.h"
 #include "tests/fixtures/polygons.h"
 #include "tests/fixtures/solids.h"

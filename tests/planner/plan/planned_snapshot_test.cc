@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/plan/check.h"
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "sample_plans.h"
 #include "tests/fixtures/solids.h"
 

@@ -11,7 +11,7 @@
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
-#include "planner/sampling/draw_grasp.h"
+#include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/fixtures/solids.h"
 

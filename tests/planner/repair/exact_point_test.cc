@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/random.h"
-#include "planner/repair/unite_shells.h"
+#include "planner/repair/cgal_mesh.h"
 
 namespace regrasp::repair {
 namespace exact_point_test {

@@ -5,7 +5,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "planner/repair/reconstruct.h"
 #include "planner/repair/stages.h"
 
 namespace regrasp::repair {

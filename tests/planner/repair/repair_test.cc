@@ -11,9 +11,9 @@
 #include <random>
 
 #include "planner/base/error.h"
-#include "planner/object/mesh_defect.h"
+#include "planner/object/polygon_soup.h"
 #include "planner/object/read_object.h"
-#include "planner/repair/filled_marks.h"
+#include "planner/repair/comparison.h"
 #include "planner/sampling/surface_sampler.h"
 #include "tests/fixtures/soups.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 
 namespace regrasp::roadmap {
 namespace find_contact_test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "planner/roadmap/contact_point_search.h"
+#include "planner/roadmap/cluster_search.h"
 
 namespace regrasp::roadmap {
 namespace known_vertices_test {

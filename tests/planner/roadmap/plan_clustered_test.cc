@@ -10,7 +10,7 @@
 #include "planner/grasp/quality.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "tests/fixtures/good_plan.h"
 #include "tests/fixtures/plan_with.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/base/number.h"
-#include "planner/roadmap/build_roadmap.h"
+#include "planner/roadmap/clustered_roadmap.h"
 #include "planner/roadmap/roadmap_planner.h"
 #include "tests/fixtures/counted_deadline.h"
 #include "tests/fixtures/peak_memory.h"

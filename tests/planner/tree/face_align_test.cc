@@ -8,10 +8,9 @@
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/check_motion_proof.h"
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/plan/check_step.h"
 #include "planner/tree/bidirectional_tree.h"
-#include "planner/tree/grasp_path.h"
 #include "planner/tree/surface_route.h"
 #include "tests/planner/tree/search_cases.h"
 

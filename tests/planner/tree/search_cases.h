@@ -5,7 +5,7 @@
 #include "planner/base/number.h"
 #include "planner/sampling/surface_sampler.h"
 #include "planner/tree/bidirectional_tree.h"
-#include "planner/tree/search_space.h"
+#include "planner/tree/face_align.h"
 #include "tests/fixtures/models.h"
 
 namespace regrasp::tree {

@@ -4,7 +4,6 @@
 
 #include "planner/sets/contour/contour_planner.h"
 #include "render/figures/contact_space_map.h"
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "tests/fixtures/plan_with.h"
 #include "tests/render/figures/contact_space_scenes.h"

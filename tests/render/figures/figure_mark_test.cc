@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 
 namespace regrasp::render {

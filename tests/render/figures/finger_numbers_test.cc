@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "render/figures/figure_format.h"
 #include "render/figures/figure_page.h"
 #include "render/picture/cairo_paint.h"
 

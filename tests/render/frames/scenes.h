@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/plan/snapshot.h"
+#include "planner/plan/projection.h"
 #include "render/frames/shaded_mesh.h"
 #include "tests/fixtures/solids.h"
 

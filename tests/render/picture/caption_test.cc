@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <array>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -59,4 +61,89 @@ TEST(CaptionTest, StatesTheRotationOrTheTranslationOfTheObject) {
 }
 
 }  // namespace caption_test
+
+namespace label_layout_test {
+
+using Eigen::Vector2d;
+
+constexpr double kRadius = 12;
+constexpr int kWidth = 640;
+constexpr int kHeight = 480;
+
+TEST(LabelLayoutTest, PutsALoneLabelNextToItsAnchorOnTheWantedSide) {
+  const LabelAnchor anchor = {{300, 200}, {0, -1}, Vector2d(300, 230)};
+  const auto centres = PlaceLabels({&anchor, 1}, {}, kRadius, kWidth, kHeight);
+  ASSERT_EQ(centres.size(), 1U);
+  EXPECT_NEAR(centres[0].x(), 300, 1e-9);
+  EXPECT_LT(centres[0].y(), 200);
+  EXPECT_LT((centres[0] - anchor.anchor).norm(), 2 * kRadius);
+}
+
+TEST(LabelLayoutTest, NeverCoversFingersNorOtherLabels) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(80, kWidth - 80);
+  std::uniform_real_distribution<double> y(80, kHeight - 80);
+  int checked = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<LabelAnchor> anchors;
+    std::vector<Obstacle> obstacles;
+    for (int finger = 0; finger < 5; ++finger) {
+      const Vector2d ball(x(random), y(random));
+      const Vector2d end = ball + 40 * Vector2d::Random().normalized();
+      anchors.push_back({end, end - ball, ball});
+      obstacles.push_back({ball, end, 8});
+    }
+    const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      for (const Obstacle& o : obstacles) {
+        const Vector2d along = o.b - o.a;
+        const double t = std::clamp((centres[i] - o.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        EXPECT_GE((centres[i] - o.a - t * along).norm(), 8 + 0.8 * kRadius);
+        ++checked;
+      }
+      for (std::size_t j = i + 1; j < centres.size(); ++j) {
+        EXPECT_GE((centres[i] - centres[j]).norm(), 1.8 * kRadius);
+      }
+    }
+  }
+  EXPECT_EQ(checked, 2500);
+}
+
+TEST(LabelLayoutTest, ALabelIsNearestToItsOwnFingertip) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> offset(-60, 60);
+  int at_another_stem = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    // Fingers inside a hole: the stem of each finger ends at the fingertip of the opposite one.
+    std::vector<LabelAnchor> anchors;
+    std::vector<Obstacle> obstacles;
+    const Vector2d middle(320, 240);
+    for (int pair = 0; pair < 2; ++pair) {
+      const Vector2d a = middle + Vector2d(offset(random), offset(random));
+      const Vector2d b = middle + Vector2d(offset(random), offset(random));
+      for (const auto& [ball, end] : {std::pair(a, b), std::pair(b, a)}) {
+        anchors.push_back({end, end - ball, ball});
+        obstacles.push_back({ball, end, 8});
+      }
+    }
+    const auto centres = PlaceLabels(anchors, obstacles, kRadius, kWidth, kHeight);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      for (const LabelAnchor& other : anchors) {
+        if (other.Owner() == anchors[i].Owner()) continue;
+        EXPECT_LT((centres[i] - anchors[i].Owner()).norm(), (centres[i] - other.Owner()).norm());
+        at_another_stem += other.Owner() == anchors[i].anchor ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(at_another_stem, 800);  // the preferred position of a label is wrong
+}
+
+TEST(LabelLayoutTest, KeepsLabelsInsideTheImage) {
+  const LabelAnchor corner = {{2, 3}, {-1, -1}, Vector2d(4, 5)};
+  const auto centres = PlaceLabels({&corner, 1}, {}, kRadius, kWidth, kHeight);
+  ASSERT_EQ(centres.size(), 1U);
+  EXPECT_GE(centres[0].minCoeff(), kRadius);
+}
+
+}  // namespace label_layout_test
 }  // namespace regrasp::render

@@ -12,7 +12,7 @@
 #include "sim/actuation/hand_world.h"
 #include "sim/actuation/scene_model.h"
 #include "sim/actuation/tip_geometry.h"
-#include "sim/scene/hand_conditions.h"
+#include "sim/scene/settings.h"
 #include "tests/sim/actuation/held_in_hand.h"
 
 namespace regrasp::sim {

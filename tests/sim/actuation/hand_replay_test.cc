@@ -222,7 +222,7 @@ plan::Plan SlidingPlan(double way) {
   request.seed = 1;
   request.robustness = gait::RobustnessLevel::kNone;  // required for plans without slides
   request.start_pose = gait::FindGait(request).gait->start.pose;
-  request.goal_pose = request.start_pose;
+  request.goal = request.start_pose;
   grasp::Grasp grasp;
   const double half = 0.03;
   for (const Vector3d& n :

@@ -101,6 +101,25 @@ TEST_F(HandWorldTest, TheExportedSceneIsTheModelOfTheReplay) {
   }
 }
 
+/// Return the angle of the wrist after ten seconds under gravity.
+double WristAngle(const mjModel& model, int wrist) {
+  const mujoco::DataPtr data(mj_makeData(&model));
+  while (data->time < 10) mj_step(&model, data.get());
+  return std::abs(data->qpos[model.jnt_qposadr[wrist]]);
+}
+
+TEST_F(HandWorldTest, AWristDoesNotSinkUnderTheWeightOfTheHand) {
+  const mujoco::ModelPtr model =
+      LoadStockScene(ExportHandScene(HandOnWrist(), solid(), kScale, WorldOptions(), {}), folder_);
+  const int wrist = mj_name2id(model.get(), mjOBJ_JOINT, "wrist");
+  ASSERT_GE(wrist, 0);
+  model->opt.gravity[1] = 9.81;  // about the axis of the wrist
+  EXPECT_LT(WristAngle(*model, wrist), 1e-4);
+  // Negative control: without damping the armature alone lets it sink.
+  model->dof_damping[model->jnt_dofadr[wrist]] = 0;
+  EXPECT_GT(WristAngle(*model, wrist), 1e-3);
+}
+
 /// Return edits that set the control range of each actuator.
 std::vector<Edit> WithControlRanges(
     const std::function<std::array<double, 2>(int finger, int joint)>& range) {

@@ -78,7 +78,7 @@ plan::Plan Regrasp(std::uint64_t seed) {
   const grasp::Grasp goal = first_grasp(seed + 1000);
   request.start_grasp = start;
   request.goal_grasp = goal;
-  request.goal_pose = request.start_pose;
+  request.goal = request.start_pose;
   const gait::GaitResult found = gait::FindGait(request);
   if (!found.gait) return {};
   return plan::ProjectPlan(Cube(), gait::PlanOf(*found.gait, request, found.contacts));
@@ -322,6 +322,21 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
        [](plan::Plan& plan) {
          plan.hand->goal.translation().z() += 1e-5;
          return static_cast<int>(plan.steps.size());
+       }},
+      {"the object is outside its goal set", Reason::kGoalNotReached, "outside its goal set",
+       [](plan::Plan& plan) {
+         const Vector3d down = plan.hand->goal.linear() * -Vector3d::UnitX();
+         const plan::FacingGoal other{Vector3d::UnitX(), down, 0.5};
+         plan.hand->goals = {{"", static_cast<int>(plan.steps.size()), plan::GoalSet(other)}};
+         return static_cast<int>(plan.steps.size());
+       }},
+      {"an earlier goal is missed", Reason::kGoalNotReached, "mm outside the set of goal \"b\"",
+       [](plan::Plan& plan) {
+         Isometry3d high = plan.hand->initial.pose;
+         plan.hand->goals = {{"a", 0, plan::GoalSet(high)}};
+         high.translation().z() += 0.02;
+         plan.hand->goals.push_back({"b", 0, plan::GoalSet(high)});
+         return 0;
        }},
   };
   for (const Control& control : controls) {

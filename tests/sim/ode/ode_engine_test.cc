@@ -6,11 +6,11 @@
 #include <limits>
 #include <thread>
 
-#include "sim/control/motions.h"
+#include "sim/control/slide.h"
 #include "sim/ode/ode_world.h"
 #include "sim/scene/scaling.h"
 #include "sim/world/motion_monitor.h"
-#include "sim/world/stillness.h"
+#include "sim/world/replay_world.h"
 #include "tests/sim/held_cube.h"
 #include "tests/sim/replay_cases.h"
 

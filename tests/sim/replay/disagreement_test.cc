@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/grasp/largest_load.h"
+#include "planner/grasp/grasp_forces.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/plan/check.h"
 #include "sim/scene/scaling.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/grasp/largest_load.h"
+#include "planner/grasp/grasp_forces.h"
 #include "sim/scene/scaling.h"
 #include "tests/sim/replay_cases.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/sets/contour/align_route.h"
+#include "planner/sets/contour/set_geometry.h"
 #include "tests/planner/sets/contour/outlines.h"
 
 namespace regrasp::contour {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "planner/sets/contour/grasp_pieces.h"
-#include "planner/sets/contour/projection_sweep.h"
 #include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/contour/outlines.h"
 

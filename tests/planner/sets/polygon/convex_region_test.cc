@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "planner/sets/polygon/filtered_region.h"
-
 namespace regrasp::polygon {
 namespace convex_region_test {
 

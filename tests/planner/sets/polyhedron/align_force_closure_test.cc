@@ -7,7 +7,7 @@
 #include <string>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/motion/contact_motion.h"
+#include "planner/motion/find_motion_proof.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/sets/set_parameters.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/sets/polyhedron/normal_quadruples.h"
-#include "planner/sets/polyhedron/sampled_graph.h"
+#include "planner/sets/polyhedron/polyhedron_graph.h"
 #include "tests/fixtures/deadline_laws.h"
 #include "tests/planner/sets/polyhedron/bodies.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "planner/grasp/force_closure.h"
-#include "planner/sets/polyhedron/focus_contacts.h"
+#include "planner/sets/polyhedron/face_part.h"
 #include "planner/sets/polyhedron/polyhedron_model.h"
 #include "planner/sets/polyhedron/polyhedron_planner.h"
 #include "planner/sets/set_parameters.h"

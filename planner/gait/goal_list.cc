@@ -1,0 +1,183 @@
+#include "planner/gait/goal_list.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "planner/gait/find_gait.h"
+#include "planner/gait/plan_of_gait.h"
+#include "planner/planning/plan_end.h"
+
+namespace regrasp::gait {
+
+namespace {
+
+/// Maximum number of end states per goal and previous end state.
+constexpr int kEndStates = 3;
+/// Maximum number of searches per goal of the list, over all end states.
+constexpr std::size_t kSearchesPerGoal = 6;
+/// Random streams of end states are this many bits apart; FindExecutableGait uses lower ones.
+constexpr int kEndStateShift = 48;
+/// Look-ahead: expanded stances, and fraction of the remaining time.
+constexpr std::int64_t kLookAheadExpanded = 150;
+constexpr double kLookAheadTime = 0.1;
+/// Fraction of the remaining time for the last goal; the rest is for other end states.
+constexpr double kLastGoalTime = 0.6;
+
+/// Plan up to one of the goals.
+struct Prefix {
+  std::optional<plan::Plan> plan;  ///< nullopt before the first goal
+  std::optional<planning::ExecutionResult> execution = {};
+};
+
+/// Simulate a plan after the steps of another one; counts the steps of the plan only.
+auto SimulatorAfter(const GaitRequest& request, const plan::Plan& before,
+                    const plan::NamedGoal& goal) {
+  return [simulate = request.simulate, before, goal](const plan::Plan& plan,
+                                                     const Deadline& deadline) {
+    auto execution = simulate(Joined(before, plan, goal), deadline);
+    if (!execution) return execution;
+    execution->steps -= static_cast<int>(before.steps.size());
+    if (execution->steps < 0) execution->is_held = false;
+    execution->steps = std::max(0, execution->steps);
+    return execution;
+  };
+}
+
+class GoalListSearch {
+ public:
+  explicit GoalListSearch(const GaitRequest& request) : request_(request) {}
+
+  GoalListResult Run() {
+    Prefix nothing{std::nullopt};
+    if (Extend(0, nothing)) return {std::move(found_.plan), std::move(found_.execution), ""};
+    return {std::nullopt, std::move(failed_execution_), FailureText()};
+  }
+
+ private:
+  /// Reach the remaining goals; `found_` is the result.
+  bool Extend(std::size_t goal, const Prefix& before) {
+    if (goal == request_.goals.size()) {
+      found_ = before;
+      return true;
+    }
+    std::vector<Prefix> postponed;
+    for (int draw = 0; draw < kEndStates && !IsOver(); ++draw) {
+      std::optional<Prefix> end = Reach(goal, before, draw);
+      if (!end) break;
+      const bool is_last = goal + 1 == request_.goals.size();
+      if (is_last || SeesNext(goal + 1, *end)) {
+        if (Extend(goal + 1, *end)) return true;
+      } else {
+        postponed.push_back(*std::move(end));
+      }
+    }
+    return std::ranges::any_of(
+        postponed, [&](const Prefix& end) { return !IsOver() && Extend(goal + 1, end); });
+  }
+
+  [[nodiscard]] bool IsOver() const {
+    return request_.deadline.IsOver() || searches_ >= kSearchesPerGoal * request_.goals.size();
+  }
+
+  /// Return the request for one goal from the end of the previous one.
+  [[nodiscard]] GaitRequest RequestFor(std::size_t goal, const Prefix& before) const {
+    GaitRequest request = request_;
+    request.goals.clear();
+    request.goal = request_.goals[goal].set;
+    if (!before.plan) return request;
+    const planning::HandEnd end = planning::EndOfPlan(*before.plan);
+    planning::StartFrom(end, request);
+    request.start_grasp = plan::ContactsOf(end.grasp);
+    if (request.simulate) {
+      request.simulate = SimulatorAfter(request_, *before.plan, request_.goals[goal]);
+    }
+    // No plan executes after a part that does not.
+    if (before.execution && !before.execution->is_whole)
+      request.robustness = RobustnessLevel::kNone;
+    return request;
+  }
+
+  /// Find a plan from the end of the previous goal to a goal.
+  std::optional<Prefix> Reach(std::size_t goal, const Prefix& before, int draw) {
+    ++searches_;
+    const std::size_t left = request_.goals.size() - goal;
+    GaitRequest request = RequestFor(goal, before);
+    request.seed += static_cast<std::uint64_t>(draw) << kEndStateShift;
+    if (request_.goals.size() > 1) {
+      request.deadline = request_.deadline.After(left == 1 ? kLastGoalTime : 1.0 / (left + 1.0));
+    }
+    request.progress = [&](std::string_view text) {
+      request_.progress("goal " + std::to_string(goal + 1) + " of " +
+                        std::to_string(request_.goals.size()) + ": " + std::string(text));
+    };
+    const GaitResult found = FindGait(request);
+    if (!found.gait) {
+      Note(goal, found);
+      return std::nullopt;
+    }
+    const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    Prefix end{Joined(before.plan, plan, request_.goals[goal]), found.execution};
+    if (!end.execution) end.execution = before.execution;
+    return end;
+  }
+
+  /// Return whether a short search without simulation reaches a goal.
+  [[nodiscard]] bool SeesNext(std::size_t goal, const Prefix& before) const {
+    GaitRequest request = RequestFor(goal, before);
+    request.robustness = RobustnessLevel::kNone;
+    request.simulate = nullptr;
+    request.most_expanded = std::min(request.most_expanded, kLookAheadExpanded);
+    request.deadline = request_.deadline.After(kLookAheadTime);
+    return FindGait(request).gait.has_value();
+  }
+
+  /// Record why a goal is not reached; the farthest goal counts.
+  void Note(std::size_t goal, const GaitResult& found) {
+    if (!failure_.empty() && goal < failed_goal_) return;
+    failed_goal_ = goal;
+    failure_ = found.message;
+    failed_execution_ = found.execution;
+  }
+
+  [[nodiscard]] std::string FailureText() const {
+    if (request_.goals.size() == 1) return failure_;
+    std::string text = "goal " + std::to_string(failed_goal_ + 1) + " of " +
+                       std::to_string(request_.goals.size()) + " (" +
+                       request_.goals[failed_goal_].name + ") is not reached";
+    if (failed_goal_ > 0) {
+      text += " from " + std::to_string(searches_) + " searches over end states of earlier goals";
+    }
+    return text + ": " + failure_;
+  }
+
+  const GaitRequest& request_;
+  Prefix found_;
+  std::size_t searches_ = 0;
+  std::size_t failed_goal_ = 0;
+  std::string failure_;
+  std::optional<planning::ExecutionResult> failed_execution_;
+};
+
+}  // namespace
+
+plan::Plan Joined(const std::optional<plan::Plan>& before, const plan::Plan& after,
+                  const plan::NamedGoal& goal) {
+  plan::Plan plan = before.value_or(after);
+  if (before) {
+    plan.steps.insert(plan.steps.end(), after.steps.begin(), after.steps.end());
+    plan.goal = after.goal;
+    plan.hand->goal = after.hand->goal;
+  } else {
+    plan.hand->goals.clear();
+  }
+  plan.hand->goals.push_back({goal.name, static_cast<int>(plan.steps.size()), goal.set});
+  return plan;
+}
+
+GoalListResult FindPlanThroughGoals(const GaitRequest& request) {
+  return GoalListSearch(request).Run();
+}
+
+}  // namespace regrasp::gait
