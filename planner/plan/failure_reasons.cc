@@ -257,8 +257,9 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kAnalytic,
      .meaning =
          "Last step: its contacts are not those of the plan's goal, or the goal is not the "
-         "grasp of --goal. With `--hand` also: the object's last pose is not the hand's goal, or "
-         "after the step of a goal the object is not in its goal set (to 1e-6 m and 1e-6 rad).",
+         "grasp of --goal. With `--hand` also: the last pose of the object is not the goal of the "
+         "hand, or the object is outside its goal set after the step of a goal. The tolerance is "
+         "1e-6 m and 1e-6 rad.",
      .causes = "Steps are missing at the end of the plan.\nThe plan was made for another goal.",
      .remedies = "Add steps that end in the goal.\nPlan for this goal."},
     {.name = "concave-corner",
