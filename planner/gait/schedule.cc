@@ -363,7 +363,7 @@ std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& trac
   const HandSetup& setup = terms.setup;
   std::optional<IdleConfigurations> idle_configurations =
       FindIdleConfigurations(setup, track, random_);
-  // Idle fingers of a given start state may have to move out of the way on the track.
+  // Idle fingers of a given start state may have to leave the space of the track.
   if (!idle_configurations && !request_.start_joints.empty()) {
     idle_configurations = FindIdleConfigurations(setup, track.InSteps(0), random_);
   }
