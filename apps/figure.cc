@@ -137,15 +137,16 @@ void FigureProgram::AddTo(CLI::App& app) {
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
   if (plan.hand) {
-    throw InputError("--plan: " + plan_path + " is a plan for the hand " + plan.hand->file +
-                     ": figures of hands are not supported, expected a plan for fingers; help: "
-                     "draw it with validate --output DIR");
+    throw InputError("--plan: " + plan_path +
+                     ": expected a plan without a hand, found a plan for " + plan.hand->file +
+                     "; help: draw it with validate --hand FILE --output DIR");
   }
   if (contact_space && object.object->dimension() != 2) {
-    throw InputError("--contact-space: " + object_path + " is a solid, not a planar object");
+    throw InputError("--contact-space requires a planar object, found the solid " + object_path);
   }
   if (solid.view && object.object->dimension() == 2) {
-    throw InputError("--view: " + object_path + " is planar: it is drawn in its own plane");
+    throw InputError("--view requires a solid, found the planar object " + object_path +
+                     "; help: omit --view");
   }
   apps::CheckPlanFits(plan, object, {plan_path, object_path, allow_object_change, scale});
 }

@@ -230,7 +230,9 @@ const planning::Planner& PlannerOptions::PlannerFor(const planning::PlanRequest&
   if (force) return found;
   if (const auto need = found.EstimateMemory(request)) {
     const std::string why = MemoryComplaint(*need, UsableMemory());
-    if (!why.empty()) throw InputError(object + ": " + why + " (--allow large-graph permits it)");
+    if (!why.empty()) {
+      throw InputError(object + ": " + why + "; help: build it anyway with --allow large-graph");
+    }
   }
   return found;
 }

@@ -136,8 +136,8 @@ void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup
       const unsigned int index = face.mIndices[mirrors ? face.mNumIndices - 1 - k : k];
       if (index >= mesh.mNumVertices) {
         throw InputError("facet " + std::to_string(soup.facets.size() - 1) + ": vertex index " +
-                         std::to_string(index) + " is out of range (" +
-                         std::to_string(mesh.mNumVertices) + " vertices)");
+                         std::to_string(index) + " must be less than " +
+                         std::to_string(mesh.mNumVertices) + ", the number of vertices");
       }
       facet.push_back(static_cast<int>(first + index));
     }

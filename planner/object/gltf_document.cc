@@ -119,8 +119,9 @@ GltfValue GltfValue::Item(const std::string& key, long long index) const {
   const auto array = Find(key);
   const long long size = array && array->json_->is_array() ? std::ssize(*array->json_) : 0;
   if (index < 0 || index >= size) {
-    throw InputError("/" + key + ": index " + std::to_string(index) + " is out of range (" +
-                     std::to_string(size) + " elements)");
+    throw InputError("/" + key + ": index " + std::to_string(index) +
+                     " must be at least 0 and less than " + std::to_string(size) +
+                     ", the number of elements");
   }
   return {(*array->json_)[static_cast<std::size_t>(index)],
           array->pointer_ + "/" + std::to_string(index)};
@@ -247,7 +248,10 @@ std::vector<double> GltfDocument::ReadView(const GltfValue& user, const Layout& 
   const std::string_view buffer = Buffer(view.Member("buffer").Count());
   const auto begin = static_cast<std::size_t>(view.CountOr("byteOffset", 0));
   const auto size = static_cast<std::size_t>(view.Member("byteLength").Count());
-  if (begin > buffer.size() || size > buffer.size() - begin) view.Fail("reaches beyond its buffer");
+  if (begin > buffer.size() || size > buffer.size() - begin) {
+    view.Fail("byteOffset + byteLength: expected at most " + std::to_string(buffer.size()) +
+              " bytes, the size of the buffer, found " + std::to_string(begin + size));
+  }
   const std::size_t component = SizeOf(layout.component_type);
   const std::size_t row = component * static_cast<std::size_t>(layout.components);
   const auto stride =
@@ -257,7 +261,11 @@ std::vector<double> GltfDocument::ReadView(const GltfValue& user, const Layout& 
   if (stride < row) view.Fail("byteStride: less than an element");
   const bool fits = count == 0 || (first <= size && row <= size - first &&
                                    (size - first - row) / stride >= count - 1);
-  if (!fits) user.Fail("reaches beyond its buffer view");
+  if (!fits) {
+    user.Fail(std::to_string(count) + " elements with a stride of " + std::to_string(stride) +
+              " bytes from byteOffset " + std::to_string(first) + " require more than the " +
+              std::to_string(size) + " bytes of the buffer view");
+  }
   std::vector<double> values;
   for (std::size_t k = 0; k < count; ++k) {
     const char* at = buffer.data() + begin + first + k * stride;
@@ -283,7 +291,10 @@ void GltfDocument::ApplySparse(const GltfValue& sparse, const Layout& layout,
   const std::vector<double> places = ReadView(index, {type, false, 1, part.count});
   const std::vector<double> replaced = ReadView(sparse.Member("values"), part);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    if (places[k] >= static_cast<double>(layout.count)) index.Fail("an index is out of range");
+    if (places[k] >= static_cast<double>(layout.count)) {
+      index.Fail("index " + FormatDouble(places[k]) + " must be less than " +
+                 std::to_string(layout.count) + ", the number of elements");
+    }
     const auto row = static_cast<std::size_t>(layout.components);
     std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(k * row), row,
                 values.begin() + static_cast<std::ptrdiff_t>(places[k]) * layout.components);

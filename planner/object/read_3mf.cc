@@ -139,8 +139,9 @@ int VertexOf(const XmlTag& tag, std::string_view attribute, const PolygonSoup& m
   const std::string text = tag.Text(attribute);
   const auto index = ParseInteger(text);
   if (index && *index >= 0 && *index < std::ssize(mesh.vertices)) return int(*index);
-  throw InputError("triangle: " + std::string(attribute) + ": " + Quoted(text) +
-                   " is out of range (" + std::to_string(mesh.vertices.size()) + " vertices)");
+  throw InputError(
+      "triangle: " + std::string(attribute) + ": expected an integer of at least 0 and less than " +
+      std::to_string(mesh.vertices.size()) + ", the number of vertices, found " + Quoted(text));
 }
 
 /// Read twelve numbers: the rows of a matrix by which a point, as a row vector, is multiplied.

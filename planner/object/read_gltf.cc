@@ -192,8 +192,8 @@ class SceneReader {
   void CheckIndex(const GltfValue& primitive, long long index, std::size_t vertices) const {
     if (index < static_cast<long long>(vertices)) return;
     primitive.Fail("facet " + std::to_string(soup_.facets.size()) + ": vertex index " +
-                   std::to_string(index) + " is out of range (" + std::to_string(vertices) +
-                   " vertices)");
+                   std::to_string(index) + " must be less than " + std::to_string(vertices) +
+                   ", the number of vertices");
   }
 
   GltfDocument document_;

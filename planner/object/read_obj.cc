@@ -69,7 +69,9 @@ int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, st
     return static_cast<int>(index > 0 ? index - 1 : count + index);
   }
   scanner.Fail("facet " + std::to_string(facet) + ": vertex index " + std::to_string(index) +
-               " is out of range (" + std::to_string(count) + " vertices so far)");
+               " must be at least -" + std::to_string(count) +
+               ", not 0, and at most the number of vertices; " + std::to_string(count) +
+               " vertices precede it");
 }
 
 void ReadObjFacet(TextScanner& scanner, bool filled, PolygonSoup& soup) {
@@ -89,8 +91,8 @@ void CheckIndices(const PolygonSoup& soup, const std::string& name) {
       if (index < std::ssize(soup.vertices)) continue;
       throw MeshError(MeshDefect::kIndexOutOfRange,
                       name + ": facet " + std::to_string(f) + ": vertex index " +
-                          std::to_string(index + 1LL) + " is out of range (1 to " +
-                          std::to_string(soup.vertices.size()) + ")");
+                          std::to_string(index + 1LL) + " must be at most " +
+                          std::to_string(soup.vertices.size()) + ", the number of vertices");
     }
   }
 }

@@ -46,8 +46,9 @@ std::vector<int> ReadOffFacet(TextScanner& scanner, const OffHeader& header, lon
   for (long long k = 0; k < corners; ++k) {
     const long long index = scanner.ReadInteger(what);
     if (index < 0 || index >= header.vertices || index > std::numeric_limits<int>::max()) {
-      scanner.Fail(what + ": vertex index " + std::to_string(index) + " is out of range (" +
-                   std::to_string(header.vertices) + " vertices)");
+      scanner.Fail(what + ": vertex index " + std::to_string(index) +
+                   " must be at least 0 and less than " + std::to_string(header.vertices) +
+                   ", the number of vertices");
     }
     indices.push_back(static_cast<int>(index));
   }

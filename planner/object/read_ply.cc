@@ -268,8 +268,10 @@ std::vector<int> ReadIndices(ValueReader& values, const Element& element, long l
       const double value = values.Read(property.type, what);
       if (!wanted) continue;
       if (!(value >= lowest && value <= std::numeric_limits<int>::max())) {
-        throw MeshError(MeshDefect::kIndexOutOfRange, name + ": " + what + ": vertex index " +
-                                                          FormatDouble(value) + " is out of range");
+        throw MeshError(MeshDefect::kIndexOutOfRange,
+                        name + ": " + what + ": vertex index " + FormatDouble(value) +
+                            " must be at least " + std::to_string(lowest) + " and at most " +
+                            std::to_string(std::numeric_limits<int>::max()));
       }
       indices.push_back(static_cast<int>(value));
     }

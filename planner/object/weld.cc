@@ -51,7 +51,8 @@ void CheckIndex(const PolygonSoup& soup, std::size_t facet, int index, const std
   if (index >= 0 && index < std::ssize(soup.vertices)) return;
   throw MeshError(MeshDefect::kIndexOutOfRange,
                   FacetName(name, facet) + ": vertex index " + std::to_string(index) +
-                      " is out of range (" + std::to_string(soup.vertices.size()) + " vertices)");
+                      " must be at least 0 and less than " + std::to_string(soup.vertices.size()) +
+                      ", the number of vertices");
 }
 
 void CheckCoordinates(const Eigen::Vector3d& vertex, int index, const std::string& name) {
@@ -98,8 +99,8 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
         MeshDefect::kEmpty,
         name + ": empty: no facet" +
             (soup.vertices.empty() ? ""
-                                   : ", but a cloud of " + std::to_string(soup.vertices.size()) +
-                                         " points, of which a repair may make a body"));
+                                   : ", only " + std::to_string(soup.vertices.size()) +
+                                         " points; help: make a surface of them with repair"));
   }
   if (soup.facets.size() > kMaxFacets) {
     throw MeshError(MeshDefect::kTooLarge, name + ": " + std::to_string(soup.facets.size()) +

@@ -111,7 +111,9 @@ def read_content(path) -> dict | list[dict]:
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except Exception as error:  # caused by truncated or forged pickles
-        raise InputError(f"{path}: not a NumPy dictionary file: {error}".replace("\n", " ")) from None
+        reason = str(error).replace("\n", " ")
+        raise InputError(f"{path}: expected an NPY or NPZ file of dictionaries, found a file that "
+                         f"cannot be read: {reason}") from None
     several = isinstance(found, list) or (
         isinstance(found, np.ndarray) and found.dtype == object and found.ndim == 1)
     entries = list(found) if several else [found]

@@ -370,7 +370,7 @@ class FormatsTest(RegraspCase):
             self.refuses([path], formats.read_dexgraspbench, path)
         with open(path, "wb") as file:
             pickle.dump({}, file)
-        self.refuses([path, "not a NumPy dictionary file"], formats.read_dexgraspbench, path)
+        self.refuses([path, "expected an NPY or NPZ file of dictionaries"], formats.read_dexgraspbench, path)
 
     def graspit(self, palm):
         def pose(p):

@@ -46,7 +46,7 @@ std::vector<Spoilt> SpoiltCubes() {
        [](PolygonSoup& s) { Transform(s, Eigen::Affine3d(Eigen::Scaling(1e-17))); }},
       {"far away", MeshDefect::kBadSize, "too far from the origin",
        [](PolygonSoup& s) { Transform(s, Eigen::Affine3d(Eigen::Translation3d(3e7, 0, 0))); }},
-      {"index beyond", MeshDefect::kIndexOutOfRange, "facet 4: vertex index 8 is out of range (8",
+      {"index beyond", MeshDefect::kIndexOutOfRange, "facet 4: vertex index 8 must be",
        [](PolygonSoup& s) { s.facets[4][1] = 8; }},
       {"index negative", MeshDefect::kIndexOutOfRange, "facet 4: vertex index -1",
        [](PolygonSoup& s) { s.facets[4][1] = -1; }},

@@ -118,7 +118,8 @@ TEST_F(MisreadFilesTest, SurfacesOfPlyInOtherElements) {
                 ply("element face 4\n" + list + "element trifan 1\n" + list,
                     FacetText("3 ", "\n") + "3 0 1 2\n"),
                 "element \"trifan\": not supported");
-  ExpectRefused("strip_beyond.ply", StripPly("4 0 2 1 -2\n", 1), "vertex index -2 is out of range");
+  ExpectRefused("strip_beyond.ply", StripPly("4 0 2 1 -2\n", 1),
+                "vertex index -2 must be at least");
   ExpectRefused("two_lists.ply",
                 ply("element face 1\n" + list + "property list uchar int vertex_index\n",
                     "3 0 1 2 3 0 2 1\n"),
@@ -243,16 +244,16 @@ TEST_F(MisreadFilesTest, GltfThatWouldBeAnotherSolid) {
          g.json.erase("scene");
          g.json["scenes"].push_back({{"nodes", {0}}});
        }},
-      {"vertex index 3 is out of range (3 vertices)",
+      {"vertex index 3 must be less than 3, the number of vertices",
        [](KnownGltf& g) { g.json["accessors"][0]["count"] = 3; }},
-      {"/accessors/0: reaches beyond its buffer view",
+      {"/accessors/0: 5 elements with a stride of",
        [](KnownGltf& g) { g.json["accessors"][0]["count"] = 5; }},
       {"/accessors/0: more than 3000000 elements",
        [](KnownGltf& g) {
          g.json["accessors"][0]["count"] = 900'000'000'000'000;
          g.json["accessors"][0].erase("bufferView");
        }},
-      {"/bufferViews/0: reaches beyond its buffer",
+      {"/bufferViews/0: byteOffset + byteLength: expected at most",
        [](KnownGltf& g) { g.json["bufferViews"][0]["byteLength"] = 1000; }},
       {"/asset/version: not supported, expected \"2.0\", found \"1.0\"",
        [](KnownGltf& g) { g.json["asset"]["version"] = "1.0"; }},

@@ -90,12 +90,11 @@ TEST(WeldVertices, NamesWhatIsWrong) {
   };
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
   EXPECT_EQ(refusal({corners, {{0, 1, 2}}}), "");
-  EXPECT_EQ(
-      refusal({corners, {}}),
-      "file.stl: empty: no facet, but a cloud of 4 points, of which a repair may make a body");
+  EXPECT_EQ(refusal({corners, {}}),
+            "file.stl: empty: no facet, only 4 points; help: make a surface of them with repair");
   EXPECT_THAT(refusal({corners, {{0, 1, 2}, {0, 1, 4}}}),
-              HasSubstr("facet 1: vertex index 4 is out of range (4 vertices)"));
-  EXPECT_THAT(refusal({corners, {{0, 1, -1}}}), HasSubstr("vertex index -1 is out of range"));
+              HasSubstr("facet 1: vertex index 4 must be at least 0 and less than 4"));
+  EXPECT_THAT(refusal({corners, {{0, 1, -1}}}), HasSubstr("vertex index -1 must be at least 0"));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::infinity(), -2 * kMaxCoordinate}) {
     EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, bad, 0}}, {{0, 1, 2}}}),
