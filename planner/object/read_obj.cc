@@ -69,9 +69,8 @@ int ResolveIndex(TextScanner& scanner, long long index, std::size_t vertices, st
     return static_cast<int>(index > 0 ? index - 1 : count + index);
   }
   scanner.Fail("facet " + std::to_string(facet) + ": vertex index " + std::to_string(index) +
-               " must be at least -" + std::to_string(count) +
-               ", not 0, and at most the number of vertices; " + std::to_string(count) +
-               " vertices precede it");
+               " must be positive, at most the number of vertices, or negative, at least -" +
+               std::to_string(count) + " (" + std::to_string(count) + " vertices precede it)");
 }
 
 void ReadObjFacet(TextScanner& scanner, bool filled, PolygonSoup& soup) {

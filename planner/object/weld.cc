@@ -99,7 +99,7 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
         MeshDefect::kEmpty,
         name + ": empty: no facet" +
             (soup.vertices.empty() ? ""
-                                   : ", only " + std::to_string(soup.vertices.size()) +
+                                   : ", found only " + std::to_string(soup.vertices.size()) +
                                          " points; help: make a surface of them with repair"));
   }
   if (soup.facets.size() > kMaxFacets) {

@@ -101,7 +101,7 @@ const std::map<std::string, std::string> kBadFiles = {
     {"compressed.pcd", "help: write it as ascii or binary"},
     {"short.pcd", "100 points of 12 bytes: truncated"},
     {"no_y.pcd", "expected a field y"},
-    {"cloud.xyz", "no facet, only 4 points; help: make a surface of them with repair"},
+    {"cloud.xyz", "no facet, found only 4 points; help: make a surface of them with repair"},
     {"no_header.ply", "line 1: not a PLY file, expected \"ply\""},
     {"no_list.ply", "lacks an integer list"},
     {"no_model.3mf", "the archive has no 3D/3dmodel.model"},
