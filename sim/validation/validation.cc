@@ -218,6 +218,7 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
   if (request.hand != nullptr && options.replay_by_hand) {
     settings.hand = options.hand;
     static_cast<sim::ReplayConditions&>(*settings.hand) = options.replay;
+    settings.hand->engine = options.replay.engine;
   }
   return settings;
 }
