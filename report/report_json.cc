@@ -10,6 +10,7 @@
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
 #include "report/condition_table.h"
+#include "report/engine_table.h"
 #include "report/failure.h"
 #include "report/report_table.h"
 #include "sim/measure/disturbance.h"
@@ -405,6 +406,8 @@ Json ReportJson(const Report& report) {
   if (report.grasp) json["grasp"] = MakeGrasp(report);
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
   if (report.conditions) json["conditions"] = ConditionsJson(*report.conditions);
+  const std::vector<validation::EngineResult> engines = validation::EngineResultsOf(report);
+  if (!engines.empty()) json["engines"] = EngineResultsJson(engines);
   json["weakest_step"] = IndexOrNull(report.weakest_step());
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();

@@ -11,6 +11,7 @@
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
 #include "report/condition_table.h"
+#include "report/engine_table.h"
 #include "report/failure.h"
 #include "report/report.h"
 #include "sim/measure/disturbance.h"
@@ -284,8 +285,8 @@ std::string FormatEngines(const Report& report) {
       ++agreed;
     }
   }
-  return text + "engines: MuJoCo and ODE agree on " + std::to_string(agreed) +
-         (agreed == 1 ? " step\n" : " steps\n");
+  return FormatEngineTable(report) + text + "engines: MuJoCo and ODE agree on " +
+         std::to_string(agreed) + (agreed == 1 ? " step\n" : " steps\n");
 }
 
 /// Format the weakest finger of the whole plan.

@@ -10,6 +10,7 @@
 #include "report/condition_table.h"
 #include "report/failure.h"
 #include "report/page/condition_section.h"
+#include "report/page/engine_section.h"
 #include "report/page/facts.h"
 #include "report/page/findings.h"
 #include "report/page/html_page.h"
@@ -40,7 +41,8 @@ class Page {
     for (const Parts& parts :
          {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
           MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
-          MakeFindings(report_), MakeConditionSection(report_), Replay(), Frames()}) {
+          MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
+          Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     const std::string extent = Extent();

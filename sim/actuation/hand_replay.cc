@@ -359,7 +359,7 @@ std::uint64_t SensingSeed(std::uint64_t nominal, std::uint64_t seed, int trial) 
   return (nominal + kFactor * (seed + 1)) * kFactor + static_cast<std::uint64_t>(trial);
 }
 
-Eigen::Vector3d DrawVector(double deviation, RandomStream& random) {
+Eigen::Vector3d DrawNormalVector(double deviation, RandomStream& random) {
   Eigen::Vector3d drawn;
   for (double& x : drawn) x = deviation * random.Normal();
   return drawn;
@@ -377,10 +377,12 @@ TrialSummary RunHandTrials(const kinematics::HandFile& file, const object::Polyh
     RandomStream random(trials.seed, RandomUse::kTrialContacts, trial);
     const TrialFactors factors = DrawTrialFactors(trials, trial);
     HandReplayOptions drawn = options;
+    // With two engines MuJoCo decides.
+    if (options.engine == EngineChoice::kBoth) drawn.engine = EngineChoice::kMujoco;
     drawn.friction_factor = factors.friction;
     drawn.mass_factor = factors.mass;
-    drawn.start_shift_m = DrawVector(deviation, random);
-    drawn.start_turn_rad = DrawVector(deviation / radius, random);
+    drawn.start_shift_m = DrawNormalVector(deviation, random);
+    drawn.start_turn_rad = DrawNormalVector(deviation / radius, random);
     for (const kinematics::Finger& finger : file.hand.fingers) {
       kinematics::JointConfiguration& offsets =
           drawn.sensing.joint_offsets.emplace_back(finger.drives);

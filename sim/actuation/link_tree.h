@@ -57,8 +57,8 @@ class LinkTree {
   std::vector<Link> links_;
   std::vector<Tip> tips_;
   std::vector<std::vector<int>> of_finger_;
-  // By body of the model: the link that it is part of, and its pose in the link's frame, or in the
-  // world without a link.
+  // The link of each body of the model, and the pose of the body in the frame of its link (in the
+  // world without a link).
   std::vector<int> link_of_body_;
   std::vector<Eigen::Isometry3d> in_link_;
 };

@@ -13,23 +13,28 @@
 
 namespace regrasp::sim {
 
+/// Check that ODE can simulate the physics of a replay.
+/// @throws InputError  for pyramidal cones, MuJoCo's default contacts, and torsional friction.
+void CheckOdePhysics(const HandPhysics& physics);
+
 /// HandEngine in the Open Dynamics Engine (ODE), independent of MuJoCo's dynamics and contacts.
 ///
-/// Every link is a body in maximal coordinates, with its inertia at its centre of mass. Hinges are
-/// hard constraints. Armature, damping, springs and servos of a joint are one implicit row
+/// Every link is a body in maximal coordinates, with its inertia at its centre of mass. Joints
+/// are hard constraints. Armature, damping, springs and servos of a joint are one implicit row
 /// (JointDrive). Contacts are hard, and friction cones are circular (BoxInCircle, KeepsCone): each
 /// step is solved again until the friction of every contact obeys its cone, and every actuator its
 /// force limit. ODE's direct solver is used.
 ///
-/// After each step the links are placed again from their joint angles, so hinges do not drift. The
-/// velocities of the links are kept, so that centrifugal and Coriolis forces are those of ODE.
+/// A time step of the replay is two steps of ODE with the same controls. After each the links are
+/// placed again from their joint angles, so joints do not drift. The velocities of the links are
+/// kept, so that centrifugal and Coriolis forces are those of ODE.
 ///
 /// It shares with HandWorld the numbers of the hand's model (HandScene), and the search for places
 /// at which fingertips touch the object (TipSurface).
 class OdeHand final : public HandEngine {
  public:
   /// @throws InputError  if the hand cannot be simulated in ODE: couplings, several joints of a
-  ///     body, tendons; or physics that only MuJoCo has (HandPhysics: cones, contacts, torsion).
+  ///     body, forces of tendons; as CheckOdePhysics.
   OdeHand(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
           const HandWorldOptions& options);
   ~OdeHand() override;
