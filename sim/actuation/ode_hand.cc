@@ -160,7 +160,7 @@ VectorXd OdeHand::BalancingTorques(FingerIndex finger, const Vector3d& at,
   const Vector3d force_W = scene().palm.linear() * force;
   const Eigen::Map<const Vector3d> gravity(scene().model->opt.gravity);
   VectorXd torques = VectorXd::Zero(chain.drives);
-  // The sums start at the fingertip, because a joint bears the weight of all links that it moves.
+  // The sums start at the fingertip, because a joint supports all links that it moves.
   double mass = 0;
   Vector3d moment = Vector3d::Zero();  // sum of mass times centre
   for (std::size_t k = chain.joints.size(); k-- > 0;) {
