@@ -468,9 +468,11 @@ void ValidateOptions::CheckReplay(const CLI::App& app) {
   if (replay_by_hand) {
     if (hand.empty()) throw InputError("--replay hand: requires --hand");
     if (replay.resisted_wrench) throw InputError("--disturbance limits: requires --replay points");
-    Refuse(app,
-           {"--engine", "--protocol", "--tolerance diameters", "--replay align", "--finger-radius"},
+    Refuse(app, {"--protocol", "--tolerance diameters", "--replay align", "--finger-radius"},
            "requires --replay points");
+    if (replay.engine == sim::EngineChoice::kOde) {
+      Refuse(app, {"--trajectory", "--export-mjcf"}, "requires --engine mujoco or both");
+    }
     trials.joint_noise = Radians(joint_noise_deg);
     return;
   }

@@ -9,6 +9,7 @@
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/certificate/plan_proof.h"
+#include "report/engine_table.h"
 #include "report/failure.h"
 #include "report/goal_table.h"
 #include "report/report_table.h"
@@ -405,6 +406,8 @@ Json ReportJson(const Report& report) {
   if (report.trials) json["trials"] = TrialsJson(*report.trials);
   if (report.conditions) json["conditions"] = ConditionsJson(*report.conditions);
   if (!report.goals.empty()) json["goals"] = GoalsJson(report.goals);
+  const std::vector<validation::EngineResult> engines = validation::EngineResultsOf(report);
+  if (!engines.empty()) json["engines"] = EngineResultsJson(engines);
   json["weakest_step"] = IndexOrNull(report.weakest_step());
   json["margins"] = MakeMargins(report);
   json["steps"] = Json::array();

@@ -9,6 +9,7 @@
 #include "planner/base/random.h"
 #include "planner/base/text_table.h"
 #include "planner/grasp/quality.h"
+#include "report/engine_table.h"
 #include "report/failure.h"
 #include "report/goal_table.h"
 #include "report/report.h"
@@ -283,8 +284,8 @@ std::string FormatEngines(const Report& report) {
       ++agreed;
     }
   }
-  return text + "engines: MuJoCo and ODE agree on " + std::to_string(agreed) +
-         (agreed == 1 ? " step\n" : " steps\n");
+  return FormatEngineTable(report) + text + "engines: MuJoCo and ODE agree on " +
+         std::to_string(agreed) + (agreed == 1 ? " step\n" : " steps\n");
 }
 
 /// Format the weakest finger of the whole plan.

@@ -43,4 +43,7 @@ class FactList {
 /// Return the section on the goals of a plan for a hand; empty without goals.
 [[nodiscard]] std::vector<Element> MakeGoalSection(const Report& report);
 
+/// Make the section with the results of a hand replay in each engine; empty for other replays.
+[[nodiscard]] std::vector<Element> MakeEngineSection(const Report& report);
+
 }  // namespace regrasp::report

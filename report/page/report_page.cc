@@ -37,8 +37,8 @@ class Page {
     for (const Parts& parts :
          {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
           MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
-          MakeGoalSection(report_), MakeFindings(report_), MakeConditionSection(report_), Replay(),
-          Frames()}) {
+          MakeGoalSection(report_), MakeFindings(report_), MakeEngineSection(report_),
+          MakeConditionSection(report_), Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     const std::string extent = Extent();

@@ -6,18 +6,11 @@
 
 #include "planner/base/error.h"
 #include "planner/base/in_blocks.h"
+#include "sim/actuation/ode_hand.h"
 #include "sim/actuation/tip_geometry.h"
 
 namespace regrasp::sim {
 namespace {
-
-double MarginOf(const HandMeasures& measures, const HandTolerance& tolerance) {
-  const double at_rest = tolerance.at_rest;
-  return 1 - std::max({measures.off_m / tolerance.length_m, measures.off_rad / tolerance.angle_rad,
-                       measures.rest_off_m / (at_rest * tolerance.length_m),
-                       measures.rest_off_rad / (at_rest * tolerance.angle_rad),
-                       measures.slip_m / tolerance.slip_m});
-}
 
 /// Describe the end of a replay. If it is not reached, it is the largest deviation of the last
 /// step.
@@ -40,6 +33,7 @@ ConditionResult ReplayUnder(const kinematics::HandFile& file, const object::Poly
   const HandReplayOptions options = OptionsUnder(condition, nominal);
   try {
     if (options.tip != nominal.tip) static_cast<void>(TipShapesOf(file, options.tip));
+    if (options.engine == EngineChoice::kOde) CheckOdePhysics(options.physics);
   } catch (const InputError& error) {
     result.applies = false;
     result.detail = error.what();
@@ -84,10 +78,18 @@ double ConditionSummary::share() const {
 
 bool ConditionSummary::enough() const { return !required || share() >= *required; }
 
+double ToleranceMargin(const HandMeasures& measures, const HandTolerance& tolerance) {
+  const double at_rest = tolerance.at_rest;
+  return 1 - std::max({measures.off_m / tolerance.length_m, measures.off_rad / tolerance.angle_rad,
+                       measures.rest_off_m / (at_rest * tolerance.length_m),
+                       measures.rest_off_rad / (at_rest * tolerance.angle_rad),
+                       measures.slip_m / tolerance.slip_m});
+}
+
 double ToleranceMargin(const ReplayResult& result, const HandTolerance& tolerance) {
   double least = 1;
   for (const StepReplay& step : result.steps) {
-    least = std::min(least, MarginOf(*step.hand, tolerance));
+    least = std::min(least, ToleranceMargin(*step.hand, tolerance));
   }
   return least;
 }

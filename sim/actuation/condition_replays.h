@@ -43,6 +43,9 @@ struct ConditionSummary {
   [[nodiscard]] bool enough() const;
 };
 
+/// Return the tolerance margin of one step, as a share of each limit.
+[[nodiscard]] double ToleranceMargin(const HandMeasures& measures, const HandTolerance& tolerance);
+
 /// Return the smallest tolerance margin of the steps of a replay, as a share of each limit.
 /// It is 1 without any deviation and negative if a limit is exceeded. Disturbance tests do not
 /// count, nor do torques, because the grasp force follows from their limits.

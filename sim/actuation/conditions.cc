@@ -193,6 +193,8 @@ HandReplayOptions OptionsUnder(const HandCondition& condition, const HandReplayO
   options.disturbance_ratio = 0;
   options.freeze_s = 0;
   options.to_end = true;
+  // With two engines MuJoCo decides.
+  if (nominal.engine == EngineChoice::kBoth) options.engine = EngineChoice::kMujoco;
   const Json changes = ParseJson(condition.changes, condition.name);
   Apply({changes, condition.name}, changes, options);
   return options;

@@ -50,7 +50,7 @@ constexpr double kMostLag = 0.025;
 
 /// Return the joint speed at which no servo exceeds kMostLag. A servo of damping c and stiffness k
 /// lags by c / k times the speed.
-double CarryingSpeed(const HandWorld& world) {
+double CarryingSpeed(const HandEngine& world) {
   double speed = kHeldJoints;
   for (FingerIndex f{0}; f < std::ssize(world.hand().fingers); ++f) {
     for (int drive = 0; drive < world.hand().fingers[f].drives; ++drive) {
@@ -86,9 +86,9 @@ struct EntryReplay::Coming {
   bool down = false;
 };
 
-EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
+EntryReplay::EntryReplay(HandEngine& world, const object::Polyhedron& solid, const plan::Plan& plan,
                          const HandControlSettings& control, std::vector<double> grasp_forces,
-                         const HandReplayOptions& options, const ReplayObserver& observer)
+                         const HandReplayOptions& options, EntryObserver observer)
     : world_(world),
       plan_(plan),
       grasp_forces_(std::move(grasp_forces)),
@@ -96,7 +96,7 @@ EntryReplay::EntryReplay(HandWorld& world, const object::Polyhedron& solid, cons
       freeze_s_(options.freeze_s),
       radius_(plan.scale * solid.diameter() / 2),
       start_off_(options.start_shift_m.norm() + radius_ * options.start_turn_rad.norm()),
-      observer_(observer),
+      observer_(std::move(observer)),
       monitor_(world, solid, plan.scale, options.tolerance),
       control_(world, solid, plan.scale, control),
       state_(plan.hand->initial),
@@ -123,7 +123,7 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
     Rest();
     monitor_.SetComplete();
     step.snapshot = SnapshotNow();
-    if (observer_.on_rest) observer_.on_rest(world_, index);
+    if (observer_.on_rest) observer_.on_rest(index);
     rest_ = world_.Save();
     // The rest of the replay then depends on this state alone. It is saved only once, because the
     // engine normalizes quaternions whenever it is restored.
@@ -209,7 +209,7 @@ void EntryReplay::Run(double seconds, const OnTick& on_tick) {
   for (int i = 1; i <= steps; ++i) {
     on_tick(static_cast<double>(i) / steps);
     Tick();
-    if (observer_.on_time_step && !disturbing_) observer_.on_time_step(world_);
+    if (observer_.on_time_step && !disturbing_) observer_.on_time_step();
   }
 }
 

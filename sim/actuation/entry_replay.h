@@ -1,22 +1,31 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "sim/actuation/execution_monitor.h"
 #include "sim/actuation/hand_control.h"
+#include "sim/actuation/hand_engine.h"
 #include "sim/actuation/hand_replay.h"
-#include "sim/actuation/hand_world.h"
 
 namespace regrasp::sim {
+
+/// Callbacks during the execution of steps; all may be empty.
+struct EntryObserver {
+  /// Called after every time step, except in disturbance tests.
+  std::function<void()> on_time_step = {};
+  /// Called in the static grasp after every step, before its disturbance test.
+  std::function<void(plan::EntryIndex)> on_rest = {};
+};
 
 /// Executes the steps of a plan with a hand in order, initial grasp first, and monitors each.
 class EntryReplay {
  public:
-  /// All arguments but settings, grasp forces and options must outlive this object.
+  /// All arguments but settings, grasp forces, options and observer must outlive this object.
   /// @param grasp_forces  grasp force of the static grasp after each entry, newtons.
-  EntryReplay(HandWorld& world, const object::Polyhedron& solid, const plan::Plan& plan,
+  EntryReplay(HandEngine& world, const object::Polyhedron& solid, const plan::Plan& plan,
               const HandControlSettings& control, std::vector<double> grasp_forces,
-              const HandReplayOptions& options, const ReplayObserver& observer);
+              const HandReplayOptions& options, EntryObserver observer);
 
   /// Execute the next step, wait for the static grasp, and disturb it.
   StepReplay Carry(plan::EntryIndex index);
@@ -25,7 +34,7 @@ class EntryReplay {
 
   /// Complete state in the static grasp after a step that passed.
   struct Rested {
-    HandWorld::State world;
+    HandEngine::State world;
     HandControl control;
     ExecutionMonitor monitor;
     plan::HandState state;
@@ -73,21 +82,21 @@ class EntryReplay {
   /// Apply disturbances in twelve directions, each from the same static grasp.
   void ApplyDisturbances();
 
-  HandWorld& world_;
+  HandEngine& world_;
   const plan::Plan& plan_;
   std::vector<double> grasp_forces_;  ///< grasp force of the static grasp after each entry, newtons
   double disturbance_ratio_;          ///< disturbance force over grasp force
   double freeze_s_;                   ///< HandReplayOptions::freeze_s
   double radius_;                     ///< half the object's diameter, metres
   double start_off_;                  ///< upper bound on the initial offset of the object's points
-  const ReplayObserver& observer_;
+  EntryObserver observer_;
   ExecutionMonitor monitor_;
   HandControl control_;
   plan::HandState state_;             ///< present planned state
   double grasp_force_before_ = 0;     ///< grasp force before the present entry, newtons
   double grasp_force_ = 0;            ///< grasp force after it
   std::vector<FingerIndex> holding_;  ///< holding fingers of the last static grasp
-  HandWorld::State rest_;             ///< last static grasp
+  HandEngine::State rest_;            ///< last static grasp
   bool to_end_;
   bool has_ended_ = false;
   bool disturbing_ = false;

@@ -29,7 +29,7 @@ constexpr double kDeepestMeasured = 0.02;
 
 }  // namespace
 
-ExecutionMonitor::ExecutionMonitor(const HandWorld& world, const object::Polyhedron& solid,
+ExecutionMonitor::ExecutionMonitor(const HandEngine& world, const object::Polyhedron& solid,
                                    double scale, const HandTolerance& tolerance)
     : world_(world),
       object_(std::make_shared<const Penetration>(solid, scale)),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/plan/reason.h"
-#include "sim/actuation/hand_world.h"
+#include "sim/actuation/hand_engine.h"
 #include "sim/actuation/penetration.h"
 #include "sim/scene/measured.h"
 #include "sim/scene/settings.h"
@@ -18,7 +18,7 @@ namespace regrasp::sim {
 /// Measures a replay by a hand while it runs, and finds the first violated limit of each step.
 class ExecutionMonitor {
  public:
-  ExecutionMonitor(const HandWorld& world, const object::Polyhedron& solid, double scale,
+  ExecutionMonitor(const HandEngine& world, const object::Polyhedron& solid, double scale,
                    const HandTolerance& tolerance);
 
   /// Take the measurements of another monitor of the same world.
@@ -98,7 +98,7 @@ class ExecutionMonitor {
   [[nodiscard]] static Marks MarksOf(std::initializer_list<const HandLinks::Placed*> links);
   [[nodiscard]] Marks MarksOfJoint(FingerIndex finger, int joint, std::string number) const;
 
-  const HandWorld& world_;
+  const HandEngine& world_;
   std::shared_ptr<const Penetration> object_;  ///< copies share it
   HandTolerance tolerance_;
   std::string phase_;

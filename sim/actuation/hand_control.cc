@@ -57,7 +57,7 @@ JointConfiguration ConfigurationOf(const kinematics::Finger& finger,
   return configuration;
 }
 
-HandControl::HandControl(HandWorld& world, const object::Polyhedron& solid, double scale,
+HandControl::HandControl(HandEngine& world, const object::Polyhedron& solid, double scale,
                          const HandControlSettings& settings)
     : world_(world),
       solid_(solid),

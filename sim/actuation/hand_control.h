@@ -9,8 +9,8 @@
 #include "planner/grasp/grasp_forces.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "sim/actuation/hand_engine.h"
 #include "sim/actuation/hand_sensors.h"
-#include "sim/actuation/hand_world.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp::sim {
@@ -73,7 +73,7 @@ struct HoldingFingers {
 ///   second.
 class HandControl {
  public:
-  HandControl(HandWorld& world, const object::Polyhedron& solid, double scale,
+  HandControl(HandEngine& world, const object::Polyhedron& solid, double scale,
               const HandControlSettings& settings);
 
   /// Set the planned state of hand and object.
@@ -181,7 +181,7 @@ class HandControl {
   /// Return the object pose whose tracking brings the object to the planned pose.
   [[nodiscard]] Eigen::Isometry3d CommandedPose() const;
 
-  HandWorld& world_;
+  HandEngine& world_;
   const object::Polyhedron& solid_;
   double scale_;
   double reach_;  ///< largest distance of the object's points from its centroid

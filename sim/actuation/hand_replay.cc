@@ -15,6 +15,7 @@
 #include "planner/plan/plan.h"
 #include "sim/actuation/entry_replay.h"
 #include "sim/actuation/hand_world.h"
+#include "sim/actuation/ode_hand.h"
 #include "sim/actuation/torque_grasp_force.h"
 #include "sim/scene/scaling.h"
 
@@ -68,7 +69,7 @@ HandState StartOf(const kinematics::HandModel& hand, const plan::Plan& plan,
   return start;
 }
 
-ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& solid,
+ReplaySettings SettingsOf(const HandEngine& world, const object::Polyhedron& solid,
                           const plan::Plan& plan, const std::vector<double>& grasp_forces,
                           const HandReplayOptions& options) {
   ReplaySettings s;
@@ -79,6 +80,7 @@ ReplaySettings SettingsOf(const HandWorld& world, const object::Polyhedron& soli
       options.grasp_force_N ? GraspForceSource::kGiven : GraspForceSource::kTorques;
   s.disturbance_ratio = options.disturbance_ratio;
   s.protocol = Protocol::kFixed;
+  s.engine = options.engine;
   s.gravity_m_s2 = kGravity;
   s.diameter_m = plan.scale * solid.diameter();
   s.tolerance = options.tolerance.length_m / s.diameter_m;
@@ -146,7 +148,7 @@ HandControlSettings ControlSettings(const plan::Plan& plan, const HandReplayOpti
 
 /// Return the grasp force of each static grasp, newtons.
 /// @param world  changes to an arbitrary state.
-std::vector<double> GraspForcesOf(HandWorld& world, const object::Polyhedron& solid,
+std::vector<double> GraspForcesOf(HandEngine& world, const object::Polyhedron& solid,
                                   const plan::Plan& plan, const HandReplayOptions& options,
                                   int entries) {
   if (options.grasp_force_N) return std::vector<double>(entries, *options.grasp_force_N);
@@ -196,6 +198,57 @@ std::vector<double> NumbersOf(const plan::Plan& plan, plan::EntryIndex entry) {
   return numbers;
 }
 
+std::unique_ptr<HandEngine> MakeEngine(const kinematics::HandFile& file,
+                                       const object::Polyhedron& solid, double scale,
+                                       const HandReplayOptions& options, double friction_angle) {
+  const HandWorldOptions world = WorldOptions(file.hand, options, friction_angle);
+  if (options.engine == EngineChoice::kOde) {
+    return std::make_unique<OdeHand>(file, solid, scale, world);
+  }
+  return std::make_unique<HandWorld>(file, solid, scale, world);
+}
+
+/// Return the observer of a replay's steps. Observers of states know MuJoCo's world only.
+EntryObserver ObserverOf(const HandEngine& engine, const ReplayObserver& observer) {
+  EntryObserver made;
+  const auto* world = dynamic_cast<const HandWorld*>(&engine);
+  if (world == nullptr) return made;
+  if (observer.on_time_step)
+    made.on_time_step = [world, &observer] { observer.on_time_step(*world); };
+  if (observer.on_rest) {
+    made.on_rest = [world, &observer](plan::EntryIndex entry) { observer.on_rest(*world, entry); };
+  }
+  return made;
+}
+
+/// Replay a plan in one engine.
+ReplayResult ReplayOnce(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                        const plan::Plan& plan, const HandReplayOptions& given,
+                        const ReplayObserver& observer, int entries) {
+  const HandReplayOptions options = WithMass(given, solid, plan.scale);
+  const std::unique_ptr<HandEngine> engine =
+      MakeEngine(file, solid, plan.scale, options, plan.friction_angle);
+  HandEngine& world = *engine;
+  const std::vector<double> grasp_forces = GraspForcesOf(world, solid, plan, options, entries);
+  ReplayResult result;
+  result.settings = SettingsOf(world, solid, plan, grasp_forces, options);
+  world.Place(StartOf(world.hand(), plan, options, world.centroid_O()));
+  EntryReplay replay(world, solid, plan, ControlSettings(plan, options), grasp_forces, options,
+                     ObserverOf(world, observer));
+  for (plan::EntryIndex index{0}; index < entries; ++index) {
+    result.steps.push_back(replay.Carry(index));
+    if (observer.on_progress) observer.on_progress(int{index} + 1, entries);
+    const bool fails = result.steps.back().reason != plan::Reason::kNone;
+    if (fails && (!options.to_end || replay.has_ended())) break;
+  }
+  return result;
+}
+
+HandReplayOptions In(EngineChoice engine, HandReplayOptions options) {
+  options.engine = engine;
+  return options;
+}
+
 }  // namespace
 
 ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
@@ -207,20 +260,18 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
         "fingers; --replay points has them");
   }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
-  const HandReplayOptions options = WithMass(given, solid, plan.scale);
-  HandWorld world(file, solid, plan.scale, WorldOptions(file.hand, options, plan.friction_angle));
-  const std::vector<double> grasp_forces = GraspForcesOf(world, solid, plan, options, entries);
-  ReplayResult result;
-  result.settings = SettingsOf(world, solid, plan, grasp_forces, options);
-  world.Place(StartOf(world.hand(), plan, options, world.centroid_O()));
-  EntryReplay replay(world, solid, plan, ControlSettings(plan, options), grasp_forces, options,
-                     observer);
-  for (plan::EntryIndex index{0}; index < entries; ++index) {
-    result.steps.push_back(replay.Carry(index));
-    if (observer.on_progress) observer.on_progress(int{index} + 1, entries);
-    const bool fails = result.steps.back().reason != plan::Reason::kNone;
-    if (fails && (!options.to_end || replay.has_ended())) break;
+  if (given.engine != EngineChoice::kBoth) {
+    return ReplayOnce(file, solid, plan, given, observer, entries);
   }
+  ReplayResult result =
+      ReplayOnce(file, solid, plan, In(EngineChoice::kMujoco, given), observer, entries);
+  const int replayed = static_cast<int>(result.steps.size());
+  ReplayResult second = ReplayOnce(file, solid, plan, In(EngineChoice::kOde, given), {}, replayed);
+  for (StepReplay& step : second.steps) {
+    result.steps[step.index].ode = static_cast<StepMotion&>(step);
+    result.steps[step.index].ode_hand = std::move(step.hand);
+  }
+  result.settings.engine = EngineChoice::kBoth;
   return result;
 }
 
@@ -239,7 +290,7 @@ struct HandReplays::Impl {
   HandReplayOptions options = {};  ///< options with the mass at this scale
   double friction_angle = 0;
   double scale = 0;
-  std::optional<HandWorld> world = {};
+  std::unique_ptr<HandEngine> world = {};
   Next begun = {};  ///< initial grasps
   int known = 0;    ///< total number of stored static grasps
 
@@ -254,7 +305,7 @@ struct HandReplays::Impl {
     scale = plan.scale;
     Forget();
     options = WithMass(given, solid, scale);
-    world.emplace(file, solid, scale, WorldOptions(file.hand, options, friction_angle));
+    world = MakeEngine(file, solid, scale, options, friction_angle);
   }
 
   ReplayResult Run(const plan::Plan& plan, const Deadline& deadline) {
@@ -266,9 +317,8 @@ struct HandReplays::Impl {
     ReplayResult result;
     result.settings = SettingsOf(*world, solid, plan, grasp_forces, options);
     world->Place(StartOf(world->hand(), plan, options, world->centroid_O()));
-    const ReplayObserver unseen;
     EntryReplay replay(*world, solid, plan, ControlSettings(plan, options), grasp_forces, options,
-                       unseen);
+                       {});
     Next* next = &begun;
     const Come* last = nullptr;
     plan::EntryIndex index{0};
@@ -309,7 +359,7 @@ std::uint64_t SensingSeed(std::uint64_t nominal, std::uint64_t seed, int trial) 
   return (nominal + kFactor * (seed + 1)) * kFactor + static_cast<std::uint64_t>(trial);
 }
 
-Eigen::Vector3d DrawVector(double deviation, RandomStream& random) {
+Eigen::Vector3d DrawNormalVector(double deviation, RandomStream& random) {
   Eigen::Vector3d drawn;
   for (double& x : drawn) x = deviation * random.Normal();
   return drawn;
@@ -327,10 +377,12 @@ TrialSummary RunHandTrials(const kinematics::HandFile& file, const object::Polyh
     RandomStream random(trials.seed, RandomUse::kTrialContacts, trial);
     const TrialFactors factors = DrawTrialFactors(trials, trial);
     HandReplayOptions drawn = options;
+    // With two engines MuJoCo decides.
+    if (options.engine == EngineChoice::kBoth) drawn.engine = EngineChoice::kMujoco;
     drawn.friction_factor = factors.friction;
     drawn.mass_factor = factors.mass;
-    drawn.start_shift_m = DrawVector(deviation, random);
-    drawn.start_turn_rad = DrawVector(deviation / radius, random);
+    drawn.start_shift_m = DrawNormalVector(deviation, random);
+    drawn.start_turn_rad = DrawNormalVector(deviation / radius, random);
     for (const kinematics::Finger& finger : file.hand.fingers) {
       kinematics::JointConfiguration& offsets =
           drawn.sensing.joint_offsets.emplace_back(finger.drives);

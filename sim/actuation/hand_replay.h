@@ -24,6 +24,7 @@ struct HandReplayOptions : ReplayConditions {
   TipShape tip = TipShape::kBall;  ///< geometry of the fingertips that touches the object
   double force_factor = 1;         ///< factor on the force limits of all actuators
   bool to_end = false;             ///< whether the replay continues after a failed step, to its end
+  EngineChoice engine = EngineChoice::kMujoco;
   double freeze_s = 1;  ///< time for which each static grasp must hold under constant controls
   /// Initial offset of the object's centroid from the plan, in the object's frame.
   Eigen::Vector3d start_shift_m = Eigen::Vector3d::Zero();
@@ -31,7 +32,8 @@ struct HandReplayOptions : ReplayConditions {
       Eigen::Vector3d::Zero();  ///< initial rotation vector off the plan
 };
 
-/// Replay a plan for a hand on the hand's own model in MuJoCo (HandWorld) with HandControl.
+/// Replay a plan for a hand on the hand's own model with HandControl, in MuJoCo (HandWorld) or ODE
+/// (OdeHand). With EngineChoice::kBoth the result is MuJoCo's. Each step also has that of ODE.
 /// The hand grasps the object and executes each step. In each static grasp all controls are kept
 /// constant for a while, and then the object is disturbed.
 ///
@@ -44,7 +46,8 @@ struct HandReplayOptions : ReplayConditions {
 ///
 /// Deterministic: the same plan gives the same bits.
 /// @param plan   plan for a hand, located on the object.
-/// @param steps  number of steps to replay, initial grasp included; negative: all.
+/// @param observer  with ODE alone only its `on_progress` is called.
+/// @param steps     number of steps to replay, initial grasp included; negative: all.
 /// @throws InputError  if the hand's model cannot be simulated.
 [[nodiscard]] ReplayResult ReplayHand(const kinematics::HandFile& file,
                                       const object::Polyhedron& solid, const plan::Plan& plan,

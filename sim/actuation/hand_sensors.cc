@@ -28,7 +28,7 @@ PoseDeviation DrawDeviation(double length, double angle, std::uint64_t seed, std
 
 }  // namespace
 
-HandSensors::HandSensors(const HandWorld& world, const HandSensing& sensing)
+HandSensors::HandSensors(const HandEngine& world, const HandSensing& sensing)
     : world_(world),
       sensing_(sensing),
       bias_(DrawDeviation(sensing.pose_bias_m, sensing.pose_bias_rad, sensing.seed, 0)) {}

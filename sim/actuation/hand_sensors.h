@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "sim/actuation/hand_world.h"
+#include "sim/actuation/hand_engine.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp::sim {
@@ -24,7 +24,7 @@ struct PoseDeviation {
 class HandSensors {
  public:
   /// @param world  world of hand and object; must outlive this object.
-  HandSensors(const HandWorld& world, const HandSensing& sensing);
+  HandSensors(const HandEngine& world, const HandSensing& sensing);
 
   /// Return the joint configuration that the joint sensors measure.
   [[nodiscard]] kinematics::JointConfiguration configuration(FingerIndex finger) const {
@@ -49,7 +49,7 @@ class HandSensors {
     double time = 0;
     PoseDeviation deviation;
   };
-  const HandWorld& world_;
+  const HandEngine& world_;
   HandSensing sensing_;
   PoseDeviation bias_;
   std::int64_t taken_ = 0;  ///< number of measurements

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Number of halvings of the depth; a piece that still crosses the surface is kept.
-constexpr int kHalvings = 8;
+constexpr int kDepthHalvings = 8;
 /// Size of a piece in tests, relative to the piece: pieces touch their neighbours.
 constexpr double kShrunk = 0.99;
 
@@ -38,7 +38,7 @@ ShellPiece MakePiece(const std::array<Vector3d, 3>& triangle,
   const Vector3d centroid = (a + b + c) / 3;
   const Vector3d inward = -(b - a).cross(c - a).normalized();
   double depth = kShellDepth;
-  for (int halving = 0; halving < kHalvings; ++halving, depth /= 2) {
+  for (int halving = 0; halving < kDepthHalvings; ++halving, depth /= 2) {
     if (surface.IsApart(Shrunk({a, b, c, centroid + depth * inward}), 0)) break;
   }
   return {a, b, c, centroid + depth * inward};

@@ -35,7 +35,7 @@ std::vector<PlannedRest> RestsOf(const plan::Plan& plan, int entries) {
 /// A static grasp of a hand, with which forces it holds, and what resists them.
 class HeldGrasp {
  public:
-  HeldGrasp(HandWorld& world, const object::Polyhedron& solid, double scale,
+  HeldGrasp(HandEngine& world, const object::Polyhedron& solid, double scale,
             const plan::HandState& state, const plan::FingerGrasp& grasp, double friction_angle,
             double weight)
       : world_(world),
@@ -89,7 +89,7 @@ class HeldGrasp {
   }
 
  private:
-  HandWorld& world_;
+  HandEngine& world_;
   const object::Polyhedron& solid_;
   Eigen::Isometry3d pose_;
   const plan::FingerGrasp& grasp_;
@@ -117,7 +117,7 @@ double LargestForce(double most, const Holds& holds) {
 
 double LargestGraspForce(double weight) { return std::max(kMostWeights * weight, kEnough); }
 
-double StaticGraspForce(HandWorld& world, const object::Polyhedron& solid, double scale,
+double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid, double scale,
                         const plan::HandState& state, const plan::FingerGrasp& grasp,
                         double friction_angle, double weight, double most) {
   const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight);
@@ -134,7 +134,7 @@ double StaticGraspForce(HandWorld& world, const object::Polyhedron& solid, doubl
   return std::max(stable, required);
 }
 
-std::vector<double> ComputeGraspForcesOfPlan(HandWorld& world, const object::Polyhedron& solid,
+std::vector<double> ComputeGraspForcesOfPlan(HandEngine& world, const object::Polyhedron& solid,
                                              const plan::Plan& plan, int entries,
                                              double friction_angle, double weight) {
   std::vector<double> grasp_forces;

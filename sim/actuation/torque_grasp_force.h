@@ -4,7 +4,7 @@
 
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
-#include "sim/actuation/hand_world.h"
+#include "sim/actuation/hand_engine.h"
 
 namespace regrasp::sim {
 
@@ -12,7 +12,7 @@ namespace regrasp::sim {
 /// LargestGraspForce).
 /// @param world    world of hand and object; its state changes to the static grasps.
 /// @param entries  number of entries of the plan that count, initial grasp included.
-[[nodiscard]] std::vector<double> ComputeGraspForcesOfPlan(HandWorld& world,
+[[nodiscard]] std::vector<double> ComputeGraspForcesOfPlan(HandEngine& world,
                                                            const object::Polyhedron& solid,
                                                            const plan::Plan& plan, int entries,
                                                            double friction_angle, double weight);
@@ -27,7 +27,7 @@ namespace regrasp::sim {
 /// If only a grasp force below that of a force margin of kLeastMargin is stable, the result is the
 /// force with this margin instead. The replay then decides.
 /// @param grasp  contacts in the object's units, `scale` metres each.
-[[nodiscard]] double StaticGraspForce(HandWorld& world, const object::Polyhedron& solid,
+[[nodiscard]] double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid,
                                       double scale, const plan::HandState& state,
                                       const plan::FingerGrasp& grasp, double friction_angle,
                                       double weight, double most);

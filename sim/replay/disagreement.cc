@@ -278,6 +278,7 @@ std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
                            .text = std::string(mujoco ? "ODE" : "MuJoCo") + " did not converge: " +
                                    (mujoco ? step.replay.ode->detail : step.replay.detail)});
   }
+  if (step.settings.hand) return Named(between, {.text = "no likely cause is known"});
   if (!mujoco) return Named(between, ReplayFault(step).Explain());
   StepReplay failed = step.replay;
   static_cast<StepMotion&>(failed) = *step.replay.ode;

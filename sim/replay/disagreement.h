@@ -62,7 +62,8 @@ struct ExaminedStep {
 
 /// Compare the results of the two engines on a step.
 /// Friction within kNearCriticalOfTwo of the required friction is checked first, because rounding
-/// decides there. The causes of a failed replay follow.
+/// decides there. The causes of a failed replay follow, except for a hand, for which none are
+/// known.
 /// @returns the disagreement; nullopt if the engines agree, or if only one replayed the step.
 [[nodiscard]] std::optional<Disagreement> ExplainEngines(const ExaminedStep& step);
 

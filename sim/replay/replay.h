@@ -46,6 +46,7 @@ struct StepReplay : StepMotion {
   /// Measurements of a replay by a hand. If set, displacement, rotation and motion are relative to
   /// the planned pose.
   std::optional<HandMeasures> hand = std::nullopt;
+  std::optional<HandMeasures> ode_hand = std::nullopt;  ///< the same in `ode`
 };
 
 struct ReplayResult {

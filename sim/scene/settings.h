@@ -63,7 +63,7 @@ enum class Protocol {
   kBoth,     ///< both, from the same static grasp; the adapted one decides
 };
 
-/// Physics engine of a replay by points (sim/scene/engine.h).
+/// Physics engine of a replay (sim/scene/engine.h; by a hand: sim/actuation/hand_engine.h).
 enum class EngineChoice {
   kMujoco,  ///< soft contacts and elliptic cones (sim/scene/mujoco_engine.h)
   kOde,     ///< hard contacts and circular cones (sim/ode/ode_engine.h)

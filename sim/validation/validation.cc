@@ -119,11 +119,11 @@ void ExamineSteps(const object::Object& object, const plan::Plan& projected, int
   for (plan::EntryIndex index{0}; index < count; ++index) {
     ReportStep& step = report.steps[index];
     step.weakest_finger = fingers.OfEntry(index);
-    // Likely causes are known only for point fingers.
-    if (!step.replay || report.settings->hand) continue;
+    if (!step.replay) continue;
     const sim::ExaminedStep examined{object, projected, step.check, *step.replay, *report.settings};
-    step.disagreement = sim::ExplainDisagreement(examined);
     step.engines = sim::ExplainEngines(examined);
+    // Likely causes of a failed replay are known only for point fingers.
+    if (!report.settings->hand) step.disagreement = sim::ExplainDisagreement(examined);
   }
 }
 
@@ -218,6 +218,7 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
   if (request.hand != nullptr && options.replay_by_hand) {
     settings.hand = options.hand;
     static_cast<sim::ReplayConditions&>(*settings.hand) = options.replay;
+    settings.hand->engine = options.replay.engine;
   }
   return settings;
 }
