@@ -153,7 +153,7 @@ class LinesInput {
   /// Skip to an entry. @param entry  entry number, not below that of the next entry.
   void SkipTo(std::int64_t entry);
   /// Return the next entry of the shard; nullopt at its end.
-  /// @throws InputError  if the file has changed.
+  /// @throws InputError  if the file has changed since the constructor read it.
   [[nodiscard]] std::optional<Line> Next();
 
  private:

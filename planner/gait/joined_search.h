@@ -115,7 +115,7 @@ class TurnSearch : public StartSearch {
     std::optional<GaitSearch> search;  ///< backward search
     [[nodiscard]] int farthest() const { return forward.farthest + backward.farthest; }
   };
-  /// Return the root with the largest reached rotation; −1 if none.
+  /// Return the index of the root from which the largest rotation is reached; −1 if none.
   /// Roots with an exhausted backward search are skipped.
   [[nodiscard]] int BestRoot() const;
   GaitSearch& BackwardFrom(int root);

@@ -29,8 +29,7 @@ namespace regrasp::object {
 
 namespace {
 
-/// Extensions of secondary files that assimp's readers search for and that do not affect the
-/// surface: images, palettes, materials, skeletons and animations.
+/// Elements of COLLADA that assimp misreads.
 constexpr auto kMisread = std::to_array<std::string_view>(
     {"brep", "convex_mesh", "instance_controller", "lookat", "ph", "skew", "spline"});
 

@@ -73,7 +73,9 @@ std::string Package3mf::RootModel() {
   std::optional<std::string> root;
   ScanXml(text, kRelationships, [&](const XmlTag& tag) {
     if (tag.name() != "Relationship" || tag.Find("Type") != kModelType) return;
-    if (tag.Find("TargetMode") == "External") throw InputError("the model is outside the package");
+    if (tag.Find("TargetMode") == "External") {
+      throw InputError("model in another file, \"" + tag.Text("Target") + "\": not supported");
+    }
     if (root) throw InputError("several relationships to a model, expected one");
     root = PartName(tag.Text("Target"));
   });
@@ -295,6 +297,10 @@ class Models {
   std::map<std::string, Model> models_;
 };
 
+[[noreturn]] void RefuseMore(const std::string& what, std::size_t most, const std::string& unit) {
+  throw InputError(what + ": more than " + std::to_string(most) + " " + unit);
+}
+
 class Placer {
  public:
   explicit Placer(Models& models) : models_(models) {}
@@ -304,10 +310,13 @@ class Placer {
     if (object.type == "support" || object.type == "solidsupport") return;
     CheckObject(placed.object, object);
     const PolygonSoup& mesh = object.mesh;
-    if (depth == kDeepest || ++placed_ > kMostPlaced ||
-        soup_.facets.size() + mesh.facets.size() > kMaxFacets ||
-        soup_.vertices.size() + mesh.vertices.size() > 3 * kMaxFacets) {
-      throw InputError("components: too many, or recursive");
+    if (depth == kDeepest) RefuseMore("components", kDeepest, "levels; they may be recursive");
+    if (++placed_ > kMostPlaced) RefuseMore("components", kMostPlaced, "placed objects");
+    if (soup_.facets.size() + mesh.facets.size() > kMaxFacets) {
+      RefuseMore("surface", kMaxFacets, "triangles");
+    }
+    if (soup_.vertices.size() + mesh.vertices.size() > 3 * kMaxFacets) {
+      RefuseMore("surface", 3 * kMaxFacets, "vertices");
     }
     Add(mesh, placed.transform);
     for (const Placed& component : object.components) {

@@ -82,7 +82,7 @@ SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
   if (ending == ".wkt")
-    throw InputError(path.string() + ": --repair cannot be used with a polygon");
+    throw InputError(path.string() + ": the object is a polygon; only surfaces can be repaired");
   return {path.filename().string(), Sha256(bytes), ParseSoup(path, bytes, reading.deadline)};
 }
 

@@ -52,9 +52,13 @@ PcdHeader ReadPcdHeader(std::string_view bytes, const std::string& name) {
 const std::vector<std::string>& LineOf(const PcdHeader& header, const std::string& key,
                                        std::size_t words, const std::string& name) {
   const auto found = header.lines.find(key);
-  if (found != header.lines.end() && found->second.size() == words) return found->second;
-  throw InputError(name + ": its header has no line " + key + " with " + std::to_string(words) +
-                   (words == 1 ? " word" : " words"));
+  if (found == header.lines.end()) {
+    throw InputError(name + ": header: line " + key + " not found");
+  }
+  if (found->second.size() == words) return found->second;
+  throw InputError(name + ": header: line " + key + ": expected " + std::to_string(words) +
+                   (words == 1 ? " value" : " values") + ", found " +
+                   std::to_string(found->second.size()));
 }
 
 std::size_t ReadSize(const std::string& word, const std::string& key, const std::string& name) {

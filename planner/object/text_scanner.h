@@ -61,7 +61,8 @@ class TextScanner {
 /// Start tag of an XML document, valid only during the callback.
 class XmlTag {
  public:
-  /// @param qualified   namespace and local name, as expat has them.
+  /// @param qualified   namespace and local name, joined by the separator of expat; only the local
+  ///     name if there is no namespace.
   /// @param attributes  pairs of qualified names and values, closed by a null pointer.
   /// @param prefixes    namespaces declared so far, by prefix.
   XmlTag(const char* qualified, const char** attributes,

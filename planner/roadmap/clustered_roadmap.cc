@@ -71,8 +71,9 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& pl
   const plan::RoadmapNote& note = *plan.roadmap;
   const auto check = [](const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return;
-    throw InputError(std::string("plan: roadmap with ") + std::to_string(value) + " " + name +
-                     " is not a roadmap of clusters");
+    throw InputError(std::string("plan: number of ") + name + " of the roadmap: expected " +
+                     std::to_string(least) + " to " + std::to_string(most) + ", found " +
+                     std::to_string(value));
   };
   check("contact points", note.contacts, kFewestClusters, kMaxClusteredContacts);
   check("clusters", note.clusters, kFewestClusters, kMostClusters);
