@@ -185,7 +185,7 @@ void HandOptions::AddTo(CLI::App& app) {
                  "position are free. A leading minus sign requires --goal-facing=-y,up,30")
       ->type_name("AXIS,DIRECTION,DEGREES");
   app.add_option("--goal-tolerance", goal_tolerance,
-                 "Tolerance of --goal-pose or --turn in position and rotation, as in 0.005,10. "
+                 "Tolerance of --goal-pose or --turn: position, angle, as in 0.005,10. "
                  "Position: that of the object's origin, with --turn that of its centre "
                  "[default: 0.001,1; with --turn some millimetres, exact rotation]")
       ->type_name("METRES,DEGREES");

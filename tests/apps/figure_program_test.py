@@ -59,7 +59,7 @@ class Figure(ProgramCase):
         self.assert_done("--object", self.model("cube.obj"), "--scale", "0.8", "--mu", "0.8",
                          "--hand", hand, "--turn", "z,90", "--robustness", "none", "--output",
                          "hand_plan.json", program="plan")
-        self.refuse("hand_plan.json is a plan for the hand ring4", object=self.model("cube.obj"),
+        self.refuse("hand_plan.json: expected a plan without a hand, found a plan for ring4.json", object=self.model("cube.obj"),
                     plan="hand_plan.json")
         self.assertFalse(os.path.exists(self.path("result")))
 

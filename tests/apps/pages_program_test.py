@@ -56,6 +56,7 @@ GIVEN = {
     "export_hand_plan": TURN,
     "figures": "cp models/mug1000.obj .\n",
     "conditions": TURN,
+    "hand_engines": TURN,
     "hand_replay": TURN,
     "make_a_figure": CUBE,
     "protocols_and_engines": CUBE,

@@ -92,7 +92,7 @@ std::vector<Spoilt> SpoiltCubes() {
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup({0.5, -0.2, -0.2}, {1, 0.2, 0.2}));
        }},
-      {"bodies beside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell is beside",
+      {"bodies beside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell is next to",
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5)));
        }},
@@ -114,7 +114,7 @@ std::vector<Spoilt> SpoiltCubes() {
          Turn(inner);
          s = Join(Join(s, cavity), inner);
        }},
-      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "is beside",
+      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "is next to",
        [](PolygonSoup& s) {
          PolygonSoup other = BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5));
          Turn(other);
