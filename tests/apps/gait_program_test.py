@@ -101,6 +101,11 @@ class Gait(ProgramCase):
         _, usual = self.validate(plan, "--hand", ring5, "--frames", "none")
         self.assertIn("hand", usual["settings"])
         self.check_conditions(plan, by_hand)
+        _, both = self.validate(plan, *by_hand, "--engine", "both", "--frames", "none")
+        self.assertEqual([(row["engine"], row["verdict"]) for row in both["engines"]],
+                         [("MuJoCo", "pass"), ("ODE", "pass")])
+        done, slippery = self.validate(plan, "--hand", ring5, "--engine", "ode", "--mu", "0.15", "--frames", "none")
+        self.assertEqual((done.returncode, slippery["verdict"]), (1, "fail"))
         points = ("--hand", ring5, "--replay", "points")
         for more, words in ((("--replay", "hand"), "--replay hand: requires --hand"),
                             ((*points, "--replay", "feedback=none"), "--replay feedback: requires --replay hand"),
@@ -119,8 +124,8 @@ class Gait(ProgramCase):
                             (("--hand", ring5, "--replay"), "--replay"),
                             ((*points, "--trials", "2", "--noise", "joints=1"),
                              "requires --replay hand"),
-                            (("--hand", ring5, "--engine", "ode"),
-                             "--engine: requires --replay points"),
+                            (("--hand", ring5, "--engine", "bullet"), "--engine: "),
+                            (("--hand", ring5, "--engine", "ode", "--export-mjcf", "scene"), "--engine"),
                             (("--hand", ring5, "--disturbance", "limits"), "requires --replay points")):
             done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                     *more, program="validate")
@@ -670,7 +675,7 @@ class Gait(ProgramCase):
 
     def test_bad_usage_is_one_line(self):
         for words, more in (
-                ("requires a task, --turn, --goal-pose or --goal", ()),
+                ("requires a task, --turn, --goal-pose, --goal-facing, --goals or --goal", ()),
                 ('expected an axis and degrees, as in z,90, found "90"', ("--turn", "90")),
                 ('found "w,90"', ("--turn", "w,90")),
                 ("at most 3600", ("--turn", "z,1e9")),
