@@ -80,6 +80,7 @@ LEFT = {
     "diagnose_a_failure": ["out/cube.start/report.html"],
     "export_hand_plan": ["turn.npz", "scene/scene.xml"],
     "conditions": ["out/turn/report.html"],
+    "hand_engines": ["out/turn/report.html"],
     "hand_replay": ["out/turn/report.html"],
     "rotate_a_cube": ["out/half/report.html", "out/slippery/report.json"],
     "robustness_trials": ["out/plan/report.json"],
