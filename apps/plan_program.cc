@@ -16,7 +16,6 @@
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
 #include "planner/planning/in_hand_task.h"
-#include "planner/planning/plan_end.h"
 #include "planner/planning/solve.h"
 #include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
@@ -165,7 +164,7 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
     hand.AskFor(task);
     if (continued) {
       CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
-      planning::StartFrom(planning::EndOfPlan(*continued), task);
+      gait::StartFrom(plan::EndOfPlan(*continued), task);
     }
     gait::AskInHand(task, request);
   }
@@ -217,7 +216,7 @@ void PlanProgram::ReadContinuedPlan() {
                      DescribeFile(continued->hand->file, continued->hand->sha256) + ", found " +
                      DescribeFile(hand_file->hand.file, hand_file->hand.sha256));
   }
-  const plan::FingerGrasp grasp = planning::EndOfPlan(*continued).grasp;
+  const plan::FingerGrasp grasp = plan::EndOfPlan(*continued).grasp;
   start.text = plan::FormatGrasp(plan::ContactsOf(grasp), continued->dimension);
   start.name = path + ": the grasp after the last step";
 }

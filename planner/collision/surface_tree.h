@@ -1,15 +1,14 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
-#include <vector>
+#include <Eigen/Core>
 
 #include "planner/collision/convex_shape.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/triangle_tree.h"
 
 namespace regrasp::collision {
 
-/// Bounding-box tree over the triangles of a solid, for distances from its surface in metres.
+/// Surface of a solid as a tree of triangles, for distances from it in metres.
 /// A shape wholly inside the solid has a positive distance too. This suffices because paths that
 /// begin outside and avoid the surface stay outside.
 class SurfaceTree {
@@ -30,20 +29,7 @@ class SurfaceTree {
   [[nodiscard]] double ReachFrom(const Eigen::Vector3d& point) const;
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int begin = 0;  ///< first of its triangles
-    int end = 0;
-    int right = 0;  ///< right child, the left one is the next node; 0: leaf
-  };
-  using Triangle = std::array<Eigen::Vector3d, 3>;
-
-  int Build(int begin, int end);
-  template <typename OnLeaf>
-  void Descend(const ConvexShape& shape, const OnLeaf& on_leaf, double& within) const;
-
-  std::vector<Triangle> triangles_;
-  std::vector<Node> nodes_;
+  object::TriangleTree tree_;  ///< in metres
 };
 
 }  // namespace regrasp::collision

@@ -7,7 +7,6 @@
 
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
-#include "planner/planning/plan_end.h"
 
 namespace regrasp::gait {
 
@@ -101,8 +100,8 @@ class GoalListSearch {
     request.goals.clear();
     request.goal = request_.goals[goal].set;
     if (!before.plan) return request;
-    const planning::HandEnd end = planning::EndOfPlan(*before.plan);
-    planning::StartFrom(end, request);
+    const plan::HandEnd end = plan::EndOfPlan(*before.plan);
+    StartFrom(end, request);
     request.start_grasp = plan::ContactsOf(end.grasp);
     if (request.simulate) {
       request.simulate = SimulatorAfter(request_, *before.plan, request_.goals[goal]);
@@ -195,6 +194,13 @@ plan::Plan Joined(const std::optional<plan::Plan>& before, const plan::Plan& aft
   }
   plan.hand->goals.push_back({goal.name, static_cast<int>(plan.steps.size()), goal.set});
   return plan;
+}
+
+void StartFrom(const plan::HandEnd& end, planning::InHandTask& task) {
+  task.start_pose = end.state.pose;
+  task.start_joints = end.state.joints;
+  task.start_fingers.clear();
+  for (const plan::FingerContact& held : end.grasp) task.start_fingers.push_back(held.finger);
 }
 
 GoalListResult FindPlanThroughGoals(const GaitRequest& request) {

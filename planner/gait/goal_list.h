@@ -22,6 +22,10 @@ struct GoalListResult {
 [[nodiscard]] plan::Plan Joined(const std::optional<plan::Plan>& before, const plan::Plan& after,
                                 const plan::NamedGoal& goal);
 
+/// Let a task start at the end of a plan.
+/// Sets pose, joints and fingers; the start grasp of the request must be that of the end.
+void StartFrom(const plan::HandEnd& end, planning::InHandTask& task);
+
 /// Find a plan that reaches the goals of a request one after the other.
 /// A depth-first search over end states. For each goal it finds up to three end states, each with a
 /// gait from the end of the previous goal (FindGait). It continues with an end state from which a

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "planner/object/rotation.h"
+
 namespace regrasp::gait {
 
 using collision::AreApart;
@@ -163,8 +165,8 @@ double HandScene::MotionBound(FingerIndex finger, const JointConfiguration& from
 }
 
 double HandScene::MotionBound(const Isometry3d& from, const Isometry3d& to) const {
-  const Eigen::AngleAxisd turn(from.linear().transpose() * to.linear());
-  return (to.translation() - from.translation()).norm() + std::abs(turn.angle()) * object_reach_;
+  const double turn = RotationInBody(from.linear(), to.linear()).angle();
+  return (to.translation() - from.translation()).norm() + turn * object_reach_;
 }
 
 kinematics::TipTarget TargetAt(const kinematics::Finger& finger, const SurfacePoint& contact,

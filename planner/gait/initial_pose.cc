@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "planner/object/rotation.h"
+
 namespace regrasp::gait {
 
 namespace {
@@ -40,7 +42,7 @@ constexpr double kBendPenalty = 0.002;      // metres per radian
 
 /// Return the rotation that maps the z axis to `up`.
 Eigen::Matrix3d Upright(const Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up).toRotationMatrix();
+  return AligningRotation(Vector3d::UnitZ(), up).toRotationMatrix();
 }
 
 double ScoreOf(const HandSetup& setup, const PoseTrack& track) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/object/rotation.h"
+
 namespace regrasp::plan {
 
 namespace {
@@ -11,18 +13,13 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Return the rotation from one orientation to another as an angle in [0, π] about an axis.
-Eigen::AngleAxisd RotationBetween(const Matrix3d& from, const Matrix3d& to) {
-  return Eigen::AngleAxisd(Matrix3d(to * from.transpose()));
-}
-
 double AngleBetween(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 GoalDistance DistanceFrom(const PoseGoal& goal, const Isometry3d& pose) {
   const double length = (pose * goal.point - goal.pose * goal.point).norm();
-  const double angle = std::abs(RotationBetween(goal.pose.linear(), pose.linear()).angle());
+  const double angle = RotationInWorld(goal.pose.linear(), pose.linear()).angle();
   return {std::max(0.0, length - goal.tolerance.length),
           std::max(0.0, angle - goal.tolerance.angle)};
 }
@@ -38,7 +35,7 @@ Isometry3d NearestTo(const PoseGoal& goal, const Isometry3d& pose, const Vector3
   if (goal.tolerance.angle == 0) {
     nearest.linear() = goal.pose.linear();
   } else if (off.angle > 0) {
-    const Vector3d axis = RotationBetween(pose.linear(), goal.pose.linear()).axis();
+    const Vector3d axis = RotationInWorld(pose.linear(), goal.pose.linear()).axis();
     nearest.linear() = Eigen::AngleAxisd(off.angle, axis).toRotationMatrix() * pose.linear();
   }
   const Vector3d wanted = goal.pose * goal.point;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/max_cardinality_matching.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/motion/find_motion_proof.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::plan {
 
@@ -108,7 +110,7 @@ bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b) {
 HandState StateBetween(const HandState& from, const HandState& to, double share) {
   HandState state = from;
   state.pose.translation() += share * (to.pose.translation() - from.pose.translation());
-  const Eigen::AngleAxisd turn(from.pose.linear().transpose() * to.pose.linear());
+  const Eigen::AngleAxisd turn = RotationInBody(from.pose.linear(), to.pose.linear());
   state.pose.linear() =
       from.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
   for (std::size_t i = 0; i < from.joints.size(); ++i) {
@@ -125,6 +127,16 @@ HandState StateAfter(const HandState& before, const Step& step) {
     if (!(*path)->empty()) return (*path)->back();
   }
   return before;
+}
+
+HandEnd EndOfPlan(const Plan& plan) {
+  if (!plan.hand) throw std::invalid_argument("the plan has no hand");
+  HandEnd end{plan.hand->initial, plan.initial};
+  for (const Step& step : plan.steps) {
+    end.state = StateAfter(end.state, step);
+    end.grasp = GraspAfter(end.grasp, step);
+  }
+  return end;
 }
 
 std::vector<const HandPath*> PathsOf(const Step& step) {

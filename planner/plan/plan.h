@@ -207,6 +207,16 @@ void SetTorsion(double torsion, Plan& plan);
 /// Return the state of the hand after a step; `before` if the plan has no path for it.
 [[nodiscard]] HandState StateAfter(const HandState& before, const Step& step);
 
+/// State of a hand and its contacts at the end of a plan.
+struct HandEnd {
+  HandState state;
+  FingerGrasp grasp;
+};
+
+/// Return the state after the last step of a plan for a hand.
+/// @throws std::invalid_argument  if the plan has no hand.
+[[nodiscard]] HandEnd EndOfPlan(const Plan& plan);
+
 /// Return all paths of a step's hand motion in order; empty if the plan has none.
 [[nodiscard]] std::vector<const HandPath*> PathsOf(const Step& step);
 

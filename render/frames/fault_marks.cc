@@ -5,6 +5,7 @@
 
 #include "planner/base/number.h"
 #include "planner/grasp/required_friction_angle.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::render {
 
@@ -232,7 +233,7 @@ class FaultSceneBuilder {
     if (!fault_.X_WO_before) return;
     const Isometry3d& now = scene_.snapshot.X_WO;
     const Vector3d back = *fault_.X_WO_before * Centroid() - scene_.marks.centroid;
-    const Eigen::AngleAxisd turn(fault_.X_WO_before->linear() * now.linear().transpose());
+    const Eigen::AngleAxisd turn = RotationInWorld(now.linear(), fault_.X_WO_before->linear());
     const double motion = back.norm() / diameter_m() + std::abs(turn.angle()) / 2;
     if (!std::isfinite(motion) || motion > kFarFromCentroid) return;
     const bool of_hand = fault_.hand && fault_.hand->pose;

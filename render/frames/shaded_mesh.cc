@@ -147,10 +147,6 @@ ShadedMesh MakeBand(const Vector3d& from, const Vector3d& to, double radius, con
 
 namespace {
 
-constexpr int kLeaf = 4;  ///< maximum number of triangles in a leaf
-/// Maximum depth of a tree that halves 2³¹ triangles at every node.
-constexpr int kDeepest = 32;
-
 /// A ray with its inverse direction.
 struct Ray {
   Ray(const Vector3d& origin, const Vector3d& direction, double skip)
@@ -195,69 +191,34 @@ struct Ray {
   }
 };
 
-}  // namespace
-
-RayTree::RayTree(const ShadedMesh& mesh) : triangles_(mesh.triangles) {
-  if (!triangles_.empty()) Split(0, static_cast<int>(triangles_.size()));
-}
-
-void RayTree::Split(int begin, int end) {
-  const std::size_t node = nodes_.size();
-  nodes_.push_back({{}, begin, end});
-  Eigen::AlignedBox3d middles;
-  for (int i = begin; i < end; ++i) {
-    for (const Vector3d& p : triangles_[i]) nodes_[node].box.extend(p);
-    middles.extend(Vector3d(triangles_[i][0] + triangles_[i][1] + triangles_[i][2]));
-  }
-  if (end - begin <= kLeaf) return;
-  Eigen::Index axis = 0;
-  middles.sizes().maxCoeff(&axis);
-  const int half = (begin + end) / 2;
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
-                   [axis](const Triangle& a, const Triangle& b) {
-                     return a[0][axis] + a[1][axis] + a[2][axis] <
-                            b[0][axis] + b[1][axis] + b[2][axis];
-                   });
-  Split(begin, half);
-  nodes_[node].right = static_cast<int>(nodes_.size());
-  Split(half, end);
-}
-
 /// Visit the triangles that a ray hits.
 /// @param take  function of the distance to a triangle. It returns the distance up to which further
 ///              triangles count; a negative value ends the visit.
-template <class Ray, class Take>
-void RayTree::Visit(const Ray& ray, const Take& take) const {
-  if (nodes_.empty()) return;
-  std::array<int, kDeepest> open = {0};
+template <class Take>
+void VisitHits(const object::TriangleTree& tree, const Ray& ray, const Take& take) {
   double to = std::numeric_limits<double>::infinity();
-  for (int count = 1; count > 0;) {
-    const int index = open[--count];
-    const Node& node = nodes_[index];
-    if (!ray.Meets(node.box, to)) continue;
-    if (node.right >= 0) {
-      open[count++] = node.right;
-      open[count++] = index + 1;
-      continue;
-    }
-    for (int i = node.begin; i < node.end; ++i) {
-      const double distance = ray.DistanceTo(triangles_[i]);
-      if (distance < to) to = take(distance);
-    }
-  }
+  tree.Visit([&](const Eigen::AlignedBox3d& box) { return ray.Meets(box, to); },
+             [&](const object::Corners& triangle) {
+               const double distance = ray.DistanceTo(triangle);
+               if (distance < to) to = take(distance);
+               return to >= 0;
+             });
 }
+
+}  // namespace
 
 double RayTree::Distance(const Vector3d& origin, const Vector3d& direction, double skip) const {
   double nearest = std::numeric_limits<double>::infinity();
-  Visit(Ray(origin, direction, skip), [&nearest](double distance) { return nearest = distance; });
+  VisitHits(tree_, Ray(origin, direction, skip),
+            [&nearest](double distance) { return nearest = distance; });
   return nearest;
 }
 
 int RayTree::CountHits(const Vector3d& origin, const Vector3d& direction, double skip,
                        int most) const {
   int hits = 0;
-  Visit(Ray(origin, direction, skip),
-        [&](double) { return ++hits < most ? std::numeric_limits<double>::infinity() : -1; });
+  VisitHits(tree_, Ray(origin, direction, skip),
+            [&](double) { return ++hits < most ? std::numeric_limits<double>::infinity() : -1; });
   return hits;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "planner/object/triangle_tree.h"
+
 namespace regrasp::render {
 
 /// Triangles with a normal at each corner. Flat triangles have three equal normals.
@@ -39,7 +41,7 @@ struct ShadedMesh {
 [[nodiscard]] ShadedMesh MakeBand(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                   double radius, const Eigen::Vector3d& back);
 
-/// A bounding-volume tree for ray queries of a mesh. It owns a copy of the triangles.
+/// Triangles of a mesh, for ray queries.
 ///
 /// A ray has an origin and a unit direction. Intersections up to distance `skip` are ignored,
 /// because a ray can start on the surface. A ray through an edge hits both triangles. An empty tree
@@ -47,7 +49,7 @@ struct ShadedMesh {
 class RayTree {
  public:
   RayTree() = default;
-  explicit RayTree(const ShadedMesh& mesh);
+  explicit RayTree(const ShadedMesh& mesh) : tree_(mesh.triangles, kLeafTriangles) {}
 
   /// Return the distance to the first triangle; infinity if there is none.
   [[nodiscard]] double Distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -57,20 +59,9 @@ class RayTree {
                               double skip, int most) const;
 
  private:
-  using Triangle = std::array<Eigen::Vector3d, 3>;
-  /// A node of the tree. Its left child is the next node; leaves have no right child.
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int begin = 0, end = 0;  ///< range of triangles
-    int right = -1;
-  };
+  static constexpr int kLeafTriangles = 4;
 
-  void Split(int begin, int end);
-  template <class Ray, class Take>
-  void Visit(const Ray& ray, const Take& take) const;
-
-  std::vector<Triangle> triangles_;
-  std::vector<Node> nodes_;
+  object::TriangleTree tree_;
 };
 
 /// A surface with a pose.

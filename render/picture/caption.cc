@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::render {
 
@@ -95,9 +96,9 @@ std::string Describe(const plan::Move& step) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
-  const Eigen::AngleAxisd rotation(from.linear().transpose() * to.linear());
-  if (rotation.angle() >= kMinRotation) {
-    return "move: rotate the object by " + FormatDegrees(Degrees(rotation.angle()));
+  const double angle = RotationInBody(from.linear(), to.linear()).angle();
+  if (angle >= kMinRotation) {
+    return "move: rotate the object by " + FormatDegrees(Degrees(angle));
   }
   const double translation = (to.translation() - from.translation()).norm();
   return translation < kMinTranslation

@@ -6,6 +6,7 @@
 
 #include "planner/grasp/grasp_forces.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::sim {
 namespace {
@@ -121,7 +122,7 @@ void HandControl::PlaceAnchor(FingerIndex finger, const Vector3d& centre_O) {
 void HandControl::Roll(FingerIndex finger) {
   Anchor& anchor = fingers_[finger].anchor;
   const Matrix3d turn = TipTurn(finger);
-  const Eigen::AngleAxisd change(turn * anchor.turn_O.transpose());
+  const Eigen::AngleAxisd change = RotationInWorld(anchor.turn_O, turn);
   const Vector3d outward = anchor.centre_O - anchor.point_O;
   anchor.turn_O = turn;
   if (!anchor.is_near) return;

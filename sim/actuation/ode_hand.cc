@@ -207,20 +207,6 @@ void OdeHand::Step() {
   for (int i = 0; i < OdeHandBodies::kSubsteps; ++i) impl_->Step();
 }
 
-namespace {
-
-void Append(const Vector3d& v, std::vector<double>& values) {
-  values.insert(values.end(), v.data(), v.data() + 3);
-}
-
-Vector3d Take(const double*& values) {
-  const Vector3d v(values[0], values[1], values[2]);
-  values += 3;
-  return v;
-}
-
-}  // namespace
-
 // Positions: joint angles, centre, rotation as w x y z. Velocities: joint speeds, links, object. In
 // place of MuJoCo's warm start there are the contacts: finger, number, and force.
 OdeHand::State OdeHand::Save() const {
@@ -229,19 +215,19 @@ OdeHand::State OdeHand::Save() const {
   EngineState& saved = state.engine;
   saved.time = impl.time;
   saved.qpos.assign(impl.angles.begin(), impl.angles.end());
-  Append(impl.centre, saved.qpos);
+  AppendVector(impl.centre, saved.qpos);
   saved.qpos.insert(saved.qpos.end(), {impl.turn.w(), impl.turn.x(), impl.turn.y(), impl.turn.z()});
   saved.qvel.assign(impl.speeds.begin(), impl.speeds.end());
   for (const OdeHandBodies::Motion& motion : impl.motions) {
-    Append(motion.velocity, saved.qvel);
-    Append(motion.spin, saved.qvel);
+    AppendVector(motion.velocity, saved.qvel);
+    AppendVector(motion.spin, saved.qvel);
   }
-  Append(impl.object_motion.velocity, saved.qvel);
-  Append(impl.object_motion.spin, saved.qvel);
+  AppendVector(impl.object_motion.velocity, saved.qvel);
+  AppendVector(impl.object_motion.spin, saved.qvel);
   for (const OdeHandBodies::Touch& touch : impl.touches) {
     saved.qacc_warmstart.push_back(touch.finger);
     saved.qacc_warmstart.push_back(touch.number);
-    Append(touch.force, saved.qacc_warmstart);
+    AppendVector(touch.force, saved.qacc_warmstart);
   }
   state.controls = impl.controls;
   return state;
@@ -255,14 +241,14 @@ void OdeHand::Restore(const State& state) {
   const double* v = state.engine.qvel.data();
   for (double& angle : impl.angles) angle = *q++;
   for (double& speed : impl.speeds) speed = *v++;
-  impl.centre = Take(q);
+  impl.centre = TakeVector(q);
   impl.turn = Quaterniond(q[0], q[1], q[2], q[3]);
   for (OdeHandBodies::Motion& motion : impl.motions) {
-    motion.velocity = Take(v);
-    motion.spin = Take(v);
+    motion.velocity = TakeVector(v);
+    motion.spin = TakeVector(v);
   }
-  impl.object_motion.velocity = Take(v);
-  impl.object_motion.spin = Take(v);
+  impl.object_motion.velocity = TakeVector(v);
+  impl.object_motion.spin = TakeVector(v);
   impl.controls = state.controls;
   impl.load = impl.torque = Vector3d::Zero();
   impl.poses = impl.tree.Place(impl.angles);
@@ -270,7 +256,7 @@ void OdeHand::Restore(const State& state) {
   for (const double* c = contacts.data(); c != contacts.data() + contacts.size();) {
     OdeHandBodies::Touch touch{FingerIndex(static_cast<int>(c[0])), static_cast<int>(c[1])};
     c += 2;
-    touch.force = Take(c);
+    touch.force = TakeVector(c);
     impl.touches.push_back(touch);
   }
   impl.FindTouches();

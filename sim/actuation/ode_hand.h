@@ -9,7 +9,6 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "sim/actuation/hand_engine.h"
-#include "sim/actuation/hand_world_options.h"
 
 namespace regrasp::sim {
 

@@ -15,26 +15,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Compliance of all constraints over the mobility of the object. It makes the friction of a grasp
-/// with redundant contacts unique; an object creeps by less than 0.1 µm/s.
-constexpr double kCompliance = 1e-7;
-/// Share of a contact's depth that a step recovers, ODE's default.
-constexpr double kDepthRecovery = 0.2;
 /// Largest speed of this recovery, m/s.
 constexpr double kMostRecovery = 0.05;
 /// Depth of contacts in equilibrium, metres, so that they hold the object from step to step.
 constexpr double kRestDepth = 1e-6;
-/// Largest number of solutions of a step until all contacts obey their cones and all actuators
-/// their limits. If forces alternate, the last ones are used.
-constexpr int kMostSolutions = 20;
 /// Contact force below which the cone is not checked, newtons.
 constexpr double kSlack = 1e-5;
 /// Force of a contact before its first solution, newtons.
 constexpr double kFirstForce = 0.05;
-// Perturbations of steps that fail: see sim/ode/ode_engine.cc.
-constexpr double kNarrower = 1e-6;
-constexpr double kSofter = 3;
-constexpr int kMostTries = 8;
 
 Vector3d Read(const dReal* values) { return {values[0], values[1], values[2]}; }
 
@@ -78,7 +66,7 @@ OdeHandBodies::OdeHandBodies(HandScene& given) : scene(given) {
   poses = tree.Place(angles);
   const mjtNum* g = model.opt.gravity;
   dWorldSetGravity(world.get(), g[0], g[1], g[2]);
-  dWorldSetERP(world.get(), kDepthRecovery);
+  dWorldSetERP(world.get(), kOdeDepthRecovery);
   dWorldSetContactSurfaceLayer(world.get(), kRestDepth);
   dWorldSetContactMaxCorrectingVel(world.get(), kMostRecovery);
   MakeObject();
@@ -208,7 +196,7 @@ void OdeHandBodies::AddContacts(int tried, std::vector<Touch>& trial,
     const bool presses = touch.force.dot(touch.inward) > 0;
     const Vector3d last = presses ? touch.force : Vector3d(kFirstForce * touch.inward);
     boxes[i] = BoxInCircle(touch.inward, last, scene.options.mu);
-    boxes[i].along *= 1 - kNarrower * tried * static_cast<double>(k + 1);
+    boxes[i].along *= 1 - kOdeNarrower * tried * static_cast<double>(k + 1);
     dContact contact{};
     contact.surface.mode = dContactMu2 | dContactFDir1;
     contact.surface.mu = boxes[i].along;
@@ -244,7 +232,7 @@ bool OdeHandBodies::Solve(int tried, std::vector<Touch>& trial) {
   std::vector<FrictionBox> boxes(trial.size());
   std::vector<dJointFeedback> feedback(trial.size());
   std::vector<int> saturated(drives.size(), 0);
-  for (int solution = 0; solution < kMostSolutions; ++solution) {
+  for (int solution = 0; solution < kMostOdeSolutions; ++solution) {
     ++solutions;
     LoadBodies();
     LoadMotors(saturated);
@@ -269,8 +257,8 @@ bool OdeHandBodies::Solve(int tried, std::vector<Touch>& trial) {
 void OdeHandBodies::Step() {
   ++steps;
   FindTouches();
-  double compliance = kCompliance / mass * timestep;
-  for (int tried = 0; tried < kMostTries; ++tried, compliance *= kSofter) {
+  double compliance = kOdeCompliance / mass * timestep;
+  for (int tried = 0; tried < kMostOdeTries; ++tried, compliance *= kOdeSofter) {
     dWorldSetCFM(world.get(), compliance);
     std::vector<Touch> trial = touches;
     if (!Solve(tried, trial)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/object/rotation.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp::sim {
@@ -13,9 +14,8 @@ namespace {
 using plan::HandState;
 
 double TimeBetween(const HandState& a, const HandState& b, double joint_speed) {
-  const Eigen::AngleAxisd turn(a.pose.linear().transpose() * b.pose.linear());
   double time = std::max((a.pose.translation() - b.pose.translation()).norm() / kObjectSpeed,
-                         turn.angle() / kObjectTurn);
+                         RotationInBody(a.pose.linear(), b.pose.linear()).angle() / kObjectTurn);
   for (std::size_t f = 0; f < a.joints.size(); ++f) {
     for (std::size_t k = 0; k < a.joints[f].size(); ++k) {
       time = std::max(time, std::abs(a.joints[f][k] - b.joints[f][k]) / joint_speed);

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "planner/base/error.h"
+#include "planner/object/rotation.h"
 #include "planner/plan/plan.h"
-#include "sim/hand/check_goals.h"
 #include "sim/hand/hand_body.h"
 #include "sim/hand/hand_finding.h"
 
@@ -61,12 +61,9 @@ struct NamedPath {
   }
 };
 
-double TurnBetween(const Isometry3d& a, const Isometry3d& b) {
-  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
-}
-
 bool IsSamePlace(const Isometry3d& a, const Isometry3d& b) {
-  return (a.translation() - b.translation()).norm() <= kSamePlace && TurnBetween(a, b) <= kSameTurn;
+  return (a.translation() - b.translation()).norm() <= kSamePlace &&
+         RotationInBody(a.linear(), b.linear()).angle() <= kSameTurn;
 }
 
 class Checker {
@@ -92,13 +89,13 @@ class Checker {
     holding_ = plan_.initial;
     state_ = plan_.hand->initial;
     MaybeFault at_start = CheckRest();
-    if (!at_start) at_start = CheckGoals(plan_, 0, state_);
+    if (!at_start) at_start = FindMissedGoal(plan_, 0, state_);
     take(plan::EntryIndex{0}, at_start);
     if (!faults.empty()) return faults;
     for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
       const plan::EntryIndex entry(static_cast<int>(i) + 1);
       MaybeFault fault = CheckStep(plan_.steps[i]);
-      if (!fault) fault = CheckGoals(plan_, entry, state_);
+      if (!fault) fault = FindMissedGoal(plan_, entry, state_);
       take(entry, fault);
       if (fault) return faults;
     }
@@ -300,8 +297,9 @@ std::optional<Checker::Conflict> Checker::FindConflict(const Instant& from, cons
   for (int part = 0; part < static_cast<int>(body_.parts().size()); ++part) {
     bounds.push_back(body_.MotionBound(part, from.state.joints, to.state.joints));
   }
-  const double object_bound = (to.state.pose.translation() - from.state.pose.translation()).norm() +
-                              TurnBetween(from.state.pose, to.state.pose) * object_reach_;
+  const double object_bound =
+      (to.state.pose.translation() - from.state.pose.translation()).norm() +
+      RotationInBody(from.state.pose.linear(), to.state.pose.linear()).angle() * object_reach_;
   const Instant middle = MiddleOf(from, to);
   if (auto fault = CheckTips(middle.holding, middle.state, kTipInMove, when)) return *fault;
   const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, others);

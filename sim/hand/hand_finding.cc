@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::sim {
 namespace {
@@ -20,19 +21,19 @@ using plan::Reason;
 constexpr int kDirections = 60;
 constexpr std::size_t kMostFaces = 24;
 
+/// Tolerances of a goal.
+constexpr double kGoalLength = 1e-6;  // metres
+constexpr double kGoalAngle = 1e-6;   // radians
+
 std::string DegreesText(double radians) { return FormatDegrees(Degrees(radians)); }
 
 std::string After(const std::string& when) { return when.empty() ? "" : ", " + when; }
-
-double TurnAngle(const Isometry3d& a, const Isometry3d& b) {
-  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
-}
 
 /// Return "100 µm and 0.20°", without zero parts.
 std::string MotionText(const Isometry3d& a, const Isometry3d& b) {
   constexpr double kNothing = 1e-12;
   const double length = (a.translation() - b.translation()).norm();
-  const double turn = TurnAngle(a, b);
+  const double turn = RotationInBody(a.linear(), b.linear()).angle();
   if (turn <= kNothing) return FormatLength(length);
   if (length <= kNothing) return DegreesText(turn);
   return FormatLength(length) + " and " + DegreesText(turn);
@@ -125,6 +126,35 @@ std::vector<Vector3d> WaysOut(const ConvexBody& solid, std::span<const ConvexBod
   return ways;
 }
 
+/// Report a final object pose that differs from the goal.
+HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
+  HandFinding finding{Reason::kGoalNotReached,
+                      "the object ends " + MotionText(last.pose, goal) + " from its goal",
+                      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = last;
+  place.pose = goal;
+  place.number = MotionText(last.pose, goal);
+  return finding;
+}
+
+/// Report an object pose outside a goal set.
+HandFinding GoalSetMissed(const HandState& now, const plan::GoalMark& goal) {
+  const plan::GoalDistance off = goal.set.Distance(now.pose);
+  std::string far = off.length > 0 ? FormatLength(off.length) : "";
+  if (off.angle > 0) far += (far.empty() ? "" : " and ") + DegreesText(off.angle);
+  HandFinding finding{
+      Reason::kGoalNotReached,
+      "the object is " + far + " outside " +
+          (goal.name.empty() ? "its goal set" : "the set of goal \"" + goal.name + "\""),
+      {}};
+  plan::HandFaultPlace& place = finding.fault.hand.emplace();
+  place.state = now;
+  place.pose = goal.set.Nearest(now.pose);
+  place.number = far;
+  return finding;
+}
+
 }  // namespace
 
 std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger) {
@@ -156,31 +186,19 @@ HandFinding ObjectJumps(const HandState& now, const Isometry3d& before, const st
   return finding;
 }
 
-HandFinding GoalMissed(const HandState& last, const Isometry3d& goal) {
-  HandFinding finding{Reason::kGoalNotReached,
-                      "the object ends " + MotionText(last.pose, goal) + " from its goal",
-                      {}};
-  plan::HandFaultPlace& place = finding.fault.hand.emplace();
-  place.state = last;
-  place.pose = goal;
-  place.number = MotionText(last.pose, goal);
-  return finding;
-}
-
-HandFinding GoalSetMissed(const HandState& now, const plan::GoalMark& goal) {
-  const plan::GoalDistance off = goal.set.Distance(now.pose);
-  std::string far = off.length > 0 ? FormatLength(off.length) : "";
-  if (off.angle > 0) far += (far.empty() ? "" : " and ") + DegreesText(off.angle);
-  HandFinding finding{
-      Reason::kGoalNotReached,
-      "the object is " + far + " outside " +
-          (goal.name.empty() ? "its goal set" : "the set of goal \"" + goal.name + "\""),
-      {}};
-  plan::HandFaultPlace& place = finding.fault.hand.emplace();
-  place.state = now;
-  place.pose = goal.set.Nearest(now.pose);
-  place.number = far;
-  return finding;
+std::optional<HandFinding> FindMissedGoal(const plan::Plan& plan, int entry,
+                                          const HandState& state) {
+  for (const plan::GoalMark& mark : plan.hand->goals) {
+    if (mark.step != entry) continue;
+    const plan::GoalDistance off = mark.set.Distance(state.pose);
+    if (off.length > kGoalLength || off.angle > kGoalAngle) return GoalSetMissed(state, mark);
+  }
+  if (entry == 0 || entry != std::ssize(plan.steps)) return std::nullopt;
+  const Isometry3d& goal = plan.hand->goal;
+  const double length = (goal.translation() - state.pose.translation()).norm();
+  const double turn = RotationInBody(goal.linear(), state.pose.linear()).angle();
+  if (length <= kGoalLength && turn <= kGoalAngle) return std::nullopt;
+  return GoalMissed(state, goal);
 }
 
 HandFinding JointJumps(HandBody& body, const HandState& now, FingerIndex finger, int joint,

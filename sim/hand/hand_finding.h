@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "planner/plan/check.h"
+#include "planner/plan/plan.h"
 #include "sim/hand/hand_body.h"
 
 namespace regrasp::sim {
@@ -31,11 +33,14 @@ struct HandFinding {
 [[nodiscard]] HandFinding ObjectJumps(const plan::HandState& now, const Eigen::Isometry3d& before,
                                       const std::string& when);
 
-/// Report a final object pose that differs from the goal.
-[[nodiscard]] HandFinding GoalMissed(const plan::HandState& last, const Eigen::Isometry3d& goal);
-
-/// Report an object pose outside a goal set.
-[[nodiscard]] HandFinding GoalSetMissed(const plan::HandState& now, const plan::GoalMark& goal);
+/// Report the first goal that the object does not reach after a step: one that the plan marks there
+/// and whose set does not contain the object's pose, to 1e-6 m and 1e-6 rad, or after the last step
+/// the final pose.
+/// @param entry  number of the step; 0: the initial grasp.
+/// @param state  state of the hand after the step.
+/// @returns nullopt if all goals there are reached.
+[[nodiscard]] std::optional<HandFinding> FindMissedGoal(const plan::Plan& plan, int entry,
+                                                        const plan::HandState& state);
 
 /// Report a discontinuous joint angle.
 /// @param joint  joint of the finger, from the palm on.

@@ -16,28 +16,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Compliance of contacts over the mobility of the bodies. It makes the friction of a grasp with
-/// redundant contacts unique; the object creeps by 1e-9 of its size per characteristic time.
-constexpr double kCompliance = 1e-7;
-/// Perturbations of steps that fail. ODE's solver proceeds from contact to contact. It may fail if
-/// a force reaches two of its bounds at once, for example in a slide or at a light contact. The
-/// step is then repeated with another order of the contacts, narrower bounds by this share, and
-/// softer contacts. If that does not help, contacts are also slightly deeper than in equilibrium,
-/// which increases their forces.
-constexpr double kNarrower = 1e-6;
-constexpr double kDeeper = 0.01;  ///< over kRestDepth
+/// Additional depth of contacts, over kRestDepth, if a step still fails after kFirstDeeper tries.
+/// It increases their forces.
+constexpr double kDeeper = 0.01;
 constexpr int kFirstDeeper = 5;
-constexpr double kSofter = 3;
-constexpr int kMostTries = 8;
 
-/// Share of a contact's depth that a step recovers, ODE's default.
-constexpr double kDepthRecovery = 0.2;
 /// Depth over D of contacts in equilibrium, so that they hold the object from step to step.
 constexpr double kRestDepth = 1e-7;
 
-/// Largest number of solutions of a step until all contacts obey their cones. If an object slides
-/// or a finger makes contact at high speed, forces may alternate; the last ones are then used.
-constexpr int kMostSolutions = 20;
 /// Contact force over the grasp force below which the cone is not checked.
 constexpr double kSlack = 1e-6;
 
@@ -130,7 +116,7 @@ OdeEngine::Impl::Impl(const Scene& metres, const object::Object& body)
       prisms.push_back(MakePrism(patch, body.inward_normal(site.place.face), s.patch_thickness_m));
     }
   }
-  dWorldSetERP(world.get(), kDepthRecovery);
+  dWorldSetERP(world.get(), kOdeDepthRecovery);
   dWorldSetContactSurfaceLayer(world.get(), kRestDepth * s.diameter_m);
   object = dBodyCreate(world.get());
   SetInertia(object, s.mass_factor * s.mass_kg, scene.inertia);
@@ -229,7 +215,7 @@ void OdeEngine::Impl::AddJoints(const std::vector<Touch>& touches, int tried,
     boxes[i] = scene.dimension == 3 ? BoxInCircle(touch.place.normal, touch.force, mu)
                                     : BoxInPlane(touch.place.normal, touch.force, mu);
     const double nudge = tried * static_cast<double>(k + 1);
-    boxes[i].along *= 1 - kNarrower * nudge;
+    boxes[i].along *= 1 - kOdeNarrower * nudge;
     const double deeper = tried < kFirstDeeper ? 0 : kDeeper * static_cast<double>(k + 1);
     AddJoint(touch, boxes[i], deeper, feedback[i]);
   }
@@ -241,7 +227,7 @@ bool OdeEngine::Impl::Solve(int tried, std::vector<Touch>& touches) {
   const ReplaySettings& s = scene.settings;
   std::vector<FrictionBox> boxes(touches.size());
   std::vector<dJointFeedback> feedback(touches.size());
-  for (int solution = 0; solution < kMostSolutions; ++solution) {
+  for (int solution = 0; solution < kMostOdeSolutions; ++solution) {
     LoadBodies();
     AddJoints(touches, tried, boxes, feedback);
     if (!StepOde(world.get(), s.timestep_s)) return false;
@@ -259,8 +245,8 @@ bool OdeEngine::Impl::Solve(int tried, std::vector<Touch>& touches) {
 void OdeEngine::Impl::SolveByTries(std::vector<Touch>& touches) {
   const ReplaySettings& s = scene.settings;
   const double mobility = 1 / (s.mass_factor * s.mass_kg) + 1 / s.finger_mass_kg;
-  double compliance = kCompliance;
-  for (int tried = 0; tried < kMostTries; ++tried, compliance *= kSofter) {
+  double compliance = kOdeCompliance;
+  for (int tried = 0; tried < kMostOdeTries; ++tried, compliance *= kOdeSofter) {
     dWorldSetCFM(world.get(), compliance * mobility * s.timestep_s);
     if (Solve(tried, touches)) return;
   }
@@ -352,20 +338,6 @@ void OdeEngine::Step() {
   impl_->time += impl_->scene.settings.timestep_s;
 }
 
-namespace {
-
-void Append(const Vector3d& v, std::vector<double>& values) {
-  values.insert(values.end(), v.data(), v.data() + 3);
-}
-
-Vector3d Take(const double*& values) {
-  const Vector3d v(values[0], values[1], values[2]);
-  values += 3;
-  return v;
-}
-
-}  // namespace
-
 // Save the state. Positions: centre, rotation as w x y z, fingertips. Velocities: centre, spin,
 // fingertips. In place of MuJoCo's warm start there are the contacts: finger, site, patch, and
 // force.
@@ -373,17 +345,17 @@ OdeEngine::State OdeEngine::Save() const {
   State state;
   state.time = impl_->time;
   const Quaterniond& turn = impl_->turn;
-  Append(impl_->centre.position, state.qpos);
+  AppendVector(impl_->centre.position, state.qpos);
   state.qpos.insert(state.qpos.end(), {turn.w(), turn.x(), turn.y(), turn.z()});
-  Append(impl_->centre.velocity, state.qvel);
-  Append(impl_->spin, state.qvel);
+  AppendVector(impl_->centre.velocity, state.qvel);
+  AppendVector(impl_->spin, state.qvel);
   for (const Motion& tip : impl_->tips) {
-    Append(tip.position, state.qpos);
-    Append(tip.velocity, state.qvel);
+    AppendVector(tip.position, state.qpos);
+    AppendVector(tip.velocity, state.qvel);
   }
   for (const auto& [where, force] : impl_->forces) {
-    Append(Vector3d(where.finger, where.site, where.patch), state.qacc_warmstart);
-    Append(force, state.qacc_warmstart);
+    AppendVector(Vector3d(where.finger, where.site, where.patch), state.qacc_warmstart);
+    AppendVector(force, state.qacc_warmstart);
   }
   return state;
 }
@@ -392,18 +364,18 @@ void OdeEngine::Restore(const State& state) {
   impl_->time = state.time;
   const double* q = state.qpos.data();
   const double* v = state.qvel.data();
-  impl_->centre = {Take(q), Take(v)};
+  impl_->centre = {TakeVector(q), TakeVector(v)};
   impl_->turn = Quaterniond(q[0], q[1], q[2], q[3]);
   q += 4;
-  impl_->spin = Take(v);
-  for (Motion& tip : impl_->tips) tip = {Take(q), Take(v)};
+  impl_->spin = TakeVector(v);
+  for (Motion& tip : impl_->tips) tip = {TakeVector(q), TakeVector(v)};
   impl_->forces.clear();
   const std::vector<double>& contacts = state.qacc_warmstart;
   for (const double* c = contacts.data(); c != contacts.data() + contacts.size();) {
     const PatchIndex where{FingerIndex(static_cast<int>(c[0])), SiteIndex(static_cast<int>(c[1])),
                            static_cast<int>(c[2])};
     c += 3;
-    impl_->forces[where] = Take(c);
+    impl_->forces[where] = TakeVector(c);
   }
   impl_->SumForces();
 }

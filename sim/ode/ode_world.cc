@@ -159,4 +159,14 @@ bool StepOde(dWorldID world, double timestep) {
   return !complained;
 }
 
+void AppendVector(const Vector3d& v, std::vector<double>& values) {
+  values.insert(values.end(), v.data(), v.data() + 3);
+}
+
+Vector3d TakeVector(const double*& values) {
+  const Vector3d v(values[0], values[1], values[2]);
+  values += 3;
+  return v;
+}
+
 }  // namespace regrasp::sim

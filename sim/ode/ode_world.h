@@ -112,4 +112,28 @@ struct OdeWorld {
 /// @return whether the solver converged; otherwise the step is unreliable.
 [[nodiscard]] bool StepOde(dWorldID world, double timestep);
 
+// Parameters of the solution of a step, for replays by point fingers and by a hand.
+
+/// Compliance of contacts over the mobility of the bodies. It makes the friction of a grasp with
+/// redundant contacts unique; the object creeps by 1e-9 of its size per characteristic time.
+inline constexpr double kOdeCompliance = 1e-7;
+/// Share of a contact's depth that a step recovers, ODE's default.
+inline constexpr double kOdeDepthRecovery = 0.2;
+/// Largest number of solutions of a step until all contacts obey their cones. If an object slides
+/// or a finger makes contact at high speed, forces may alternate; the last ones are then used.
+inline constexpr int kMostOdeSolutions = 20;
+/// Perturbations of steps that fail. ODE's solver proceeds from contact to contact. It may fail if
+/// a force reaches two of its bounds at once, for example in a slide or at a light contact. The
+/// step is then repeated up to kMostOdeTries times with another order of the contacts, bounds that
+/// are narrower by the share kOdeNarrower, and contacts that are softer by the factor kOdeSofter.
+inline constexpr double kOdeNarrower = 1e-6;
+inline constexpr double kOdeSofter = 3;
+inline constexpr int kMostOdeTries = 8;
+
+/// Append a vector to the numbers of a saved state.
+void AppendVector(const Eigen::Vector3d& v, std::vector<double>& values);
+
+/// Return the vector at the start of `values`, and advance `values` beyond it.
+[[nodiscard]] Eigen::Vector3d TakeVector(const double*& values);
+
 }  // namespace regrasp::sim

@@ -11,6 +11,7 @@
 #include "planner/criteria/reach.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::sim {
 
@@ -37,7 +38,7 @@ plan::FingerGrasp Interpolate(const plan::FingerGrasp& from, const plan::FingerG
     grasp::Contact& c = between[i].contact;
     c.p = (1 - share) * a.p + share * c.p;
     if (a.face == c.face) continue;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(a.n, c.n);
+    const Eigen::Quaterniond turn = AligningRotation(a.n, c.n);
     c.n = (Eigen::Quaterniond::Identity().slerp(share, turn) * a.n).normalized();
     c.face = a.face;
   }

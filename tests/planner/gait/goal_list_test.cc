@@ -9,7 +9,6 @@
 #include "planner/gait/plan_of_gait.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
-#include "planner/planning/plan_end.h"
 
 namespace regrasp::gait {
 namespace goal_list_test {
@@ -149,9 +148,9 @@ TEST(GoalListTest, AStartStateIsKept) {
   GaitRequest request = QuickRequest();
   request.turn = {Vector3d::UnitZ(), Radians(30)};
   const plan::Plan first = PlanFor(request);
-  const planning::HandEnd end = planning::EndOfPlan(first);
+  const plan::HandEnd end = plan::EndOfPlan(first);
   GaitRequest next = request;
-  planning::StartFrom(end, next);
+  StartFrom(end, next);
   next.start_grasp = plan::ContactsOf(end.grasp);
   const plan::Plan second = PlanFor(next);
   ASSERT_TRUE(second.hand);
