@@ -212,7 +212,7 @@ TEST_F(JointRelationsTest, AHandFileMustHaveTheCouplingsOfItsModel) {
   description.couplings = {{"f3", "f2", 1.06, 0.2}, {"g33", "g2", 1, 0}};
   EXPECT_THAT(read(), HasSubstr("/couplings/1/joint: expected a joint of a finger, found \"g33\""));
   description.couplings[1] = {"f3", "f2", 1.06, 0.2};
-  EXPECT_THAT(read(), HasSubstr("joint f3 is coupled twice"));
+  EXPECT_THAT(read(), HasSubstr("joint f3 must be coupled once, found twice"));
   description.couplings[1] = {"g3", "g2", 1, 0};
   EXPECT_EQ(read(), "taken") << "a file may couple more than its model";
 }
@@ -327,8 +327,8 @@ TEST_F(JointRelationsTest, AnUnknownStrengthIsNoted) {
     return InspectHand(Write("ring.urdf", RingUrdf(limit, ""))).notes;
   };
   const std::string unknown =
-      "the largest torque of joints f1, f2, f3, g1, g2, g3 and 3 more is "
-      "unknown and taken as unlimited";
+      "force limit of joints f1, f2, f3, g1, g2, g3 and 3 more "
+      "unknown, treated as unlimited";
   EXPECT_THAT(notes("effort=\"1\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\" 1.0\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\"0\""), testing::Contains(unknown));
