@@ -126,7 +126,7 @@ StageResult CleanSurface(const object::PolygonSoup& soup) {
   pmp::repair_polygon_soup(points, triangles);
   const std::size_t kept = triangles.size();
   const bool oriented = pmp::orient_polygon_soup(points, triangles);
-  if (triangles.empty()) throw std::runtime_error("it has no facet with an area");
+  if (triangles.empty()) throw std::runtime_error("the area of all facets is 0");
   StageResult result;
   result.facts["polygons_cut"] = polygons;
   result.facts["facets_dropped"] = cut - kept;
@@ -312,7 +312,7 @@ Pairs FindPairs(const Mesh& mesh) {
   Pairs pairs;
   pmp::self_intersections(faces(mesh), mesh, std::back_inserter(pairs),
                           CGAL::parameters::maximum_number(kMostPairs));
-  if (pairs.size() >= kMostPairs) throw std::runtime_error("too many facets meet each other");
+  if (pairs.size() >= kMostPairs) throw std::runtime_error("too many facets intersect");
   return pairs;
 }
 
@@ -321,7 +321,7 @@ class CutOut {
  public:
   explicit CutOut(const Mesh& whole) : whole_(whole) {
     for (const auto& [one, other] : FindPairs(whole)) facets_.insert({one, other});
-    if (facets_.empty()) throw std::runtime_error("no two facets meet");
+    if (facets_.empty()) throw std::runtime_error("facets do not intersect");
   }
 
   [[nodiscard]] std::size_t size() const { return facets_.size(); }
@@ -400,7 +400,7 @@ StageResult RemoveCrossings(const object::PolygonSoup& soup) {
       cut.Widen();
     }
   }
-  throw std::runtime_error("not all facets that meet each other can be parted");
+  throw std::runtime_error("intersecting facets cannot be separated");
 }
 
 }  // namespace regrasp::repair

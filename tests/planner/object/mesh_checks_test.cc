@@ -389,7 +389,7 @@ TEST(MeshChecks, ARefusalNamesTheFirstDefectAndCountsAll) {
   std::ranges::reverse(open.facets[1]);
   EXPECT_EQ(refusal(open),
             "x.off: facet 0: not closed: no other facet at the edge from vertex 0 (-0.5, -0.5, "
-            "-0.5) to vertex 2 (-0.5, 0.5, -0.5); in all 4 open edges in 1 border (the longest 4 "
+            "-0.5) to vertex 2 (-0.5, 0.5, -0.5); in total 4 open edges in 1 border (the longest 4 "
             "long), 3 edges between facets of opposite orientation");
   PolygonSoup boxes;
   for (int i = 0; i < 3; ++i) {
@@ -398,7 +398,7 @@ TEST(MeshChecks, ARefusalNamesTheFirstDefectAndCountsAll) {
   EXPECT_THAT(refusal(boxes), HasSubstr("crossing pairs, 3 closed shells (all of them overlap, "
                                         "with "));
   // A defect that is not counted has no counts in its message.
-  EXPECT_EQ(refusal({}), "x.off: empty: no facet");
+  EXPECT_EQ(refusal({}), "x.off: empty: facets not found");
 }
 
 TEST(MeshChecks, FacetsJoinWithinTheCoplanarAngleOnly) {
