@@ -5,7 +5,7 @@
 namespace regrasp::planning {
 
 HandEnd EndOfPlan(const plan::Plan& plan) {
-  if (!plan.hand) throw std::invalid_argument("the plan has no hand");
+  if (!plan.hand) throw std::invalid_argument("requires a plan for a hand");
   HandEnd end{plan.hand->initial, plan.initial};
   for (const plan::Step& step : plan.steps) {
     end.state = plan::StateAfter(end.state, step);
