@@ -235,7 +235,7 @@ std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape ti
     }
     tips.push_back(GeometryOf(*file.compiled->model, ball.body));
     if (!tips.back().empty()) continue;
-    throw InputError(file.description.model + ": the tip link " + ball.body + " of " +
+    throw InputError(file.description.model + ": fingertip link " + ball.body + " of " +
                      FingerText(file.hand, finger) +
                      " has no collision geometry that could touch the object");
   }

@@ -69,7 +69,7 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   const std::string why = error.what();
   // The engine's first sentence contains the reason.
   result.detail =
-      "the simulation became unstable " + monitor.phase() + ": " + why.substr(0, why.find(". "));
+      "the simulation diverges " + monitor.phase() + ": " + why.substr(0, why.find(". "));
   return result;
 }
 
@@ -175,11 +175,11 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
   RestoreRoles(world);
   world.StartMonitoring();
   try {
-    world.monitor().SetPhase(index == 0 ? "as the fingers took hold"
+    world.monitor().SetPhase(index == 0 ? "while the fingers grasp"
                                         : std::string("during the ") +
                                               plan::StepKind(plan::StepOf(plan, index)));
     Perform(world, object, plan, index, result);
-    world.monitor().SetPhase("once the fingers stood still");
+    world.monitor().SetPhase("after the fingers stop");
     ComeToRest(world);
     result.motion_margins = world.monitor().margins();
     ExamineRest(world, object, plan.scale, result);

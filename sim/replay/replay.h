@@ -24,7 +24,7 @@ struct StepMotion : Violation {
   bool contact_lost = false;          ///< a holding finger left the surface
   FingerMargins disturbance_margins;  ///< smallest friction margins in the disturbance test
   /// The static grasp after the step, or the state under the disturbance that the grasp does not
-  /// withstand. Without fingers if the simulation became unstable.
+  /// withstand. Without fingers if the simulation diverges.
   plan::Snapshot snapshot;
 };
 

@@ -227,7 +227,7 @@ TEST(CheckHandTest, ASlideIsFollowedAllTheWay) {
       {"no paths", Reason::kHandJumps, "no path", [](auto& align) { align.motion.reset(); }},
       {"a path too few", Reason::kHandJumps, "for its waypoints",
        [](auto& align) { align.motion->pop_back(); }},
-      {"one state", Reason::kHandJumps, "path to waypoint 1 has one state",
+      {"one state", Reason::kHandJumps, "path to waypoint 1 must have at least two states",
        [](auto& align) { align.motion->front().resize(1); }},
       {"the finger stays behind", Reason::kTipOffContact, "tip of finger",
        [](auto& align) {
@@ -414,7 +414,7 @@ TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
   EXPECT_GT(gap, 1e-3 - 1e-5) << "the plan keeps 1 mm";
   EXPECT_LT(gap, 0.02);
   EXPECT_THAT(faults.front().detail, testing::HasSubstr("within " + FormatLength(gap)));
-  EXPECT_THAT(faults.front().detail, testing::HasSubstr("the clearance is 2 cm"));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("required clearance 2 cm"));
 }
 
 TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {

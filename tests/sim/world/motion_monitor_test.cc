@@ -86,12 +86,12 @@ TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
   monitor.SetPhase("during the align");
   monitor.AddPose(Pose(0, 0));
   monitor.AddPose(Pose(0.004, 0));
-  EXPECT_EQ(monitor.detail(), "the object moved by 4 mm and turned by 0° during the align");
+  EXPECT_EQ(monitor.detail(), "the object moves 4 mm and rotates 0° during the align");
   monitor.AddSlip(FingerIndex(2), 0.003);
   monitor.SetPhase("under a push of 5.3 N along +x");
   monitor.AddSlip(FingerIndex(1), 0.007);
   monitor.AddSlip(FingerIndex(2), 0.0045);
-  EXPECT_EQ(monitor.detail(), "finger 2 slipped by 4.5 mm during the align");
+  EXPECT_EQ(monitor.detail(), "finger 2 slips 4.5 mm during the align");
   EXPECT_EQ(monitor.slip_m(), 0.007);
   monitor.AddGap(FingerIndex(3), 1e-4);
   EXPECT_EQ(monitor.detail(),

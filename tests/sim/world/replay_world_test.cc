@@ -106,8 +106,7 @@ TEST(MonitorOfAReplay, AnEngineThatCannotGoOnIsNoPass) {
   observer.on_sample = [](const plan::Snapshot&) { throw UnstableError("made up"); };
   const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}, observer);
   EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kSimulationUnstable);
-  EXPECT_EQ(result.steps.at(0).detail,
-            "the simulation became unstable as the fingers took hold: made up");
+  EXPECT_EQ(result.steps.at(0).detail, "the simulation diverges while the fingers grasp: made up");
 }
 
 TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
