@@ -355,7 +355,7 @@ class Gait(ProgramCase):
         for changes, words in (
                 ((), None),
                 (((' forcerange="-1.0 1.0"', ""),),
-                 "warning: ring4.json: the largest torque of joints finger0_joint0, "),
+                 "warning: ring4.json: force limit of joints finger0_joint0, "),
                 ((('<position name="finger2_motor3" joint="finger2_joint3"/>', ""),),
                  "warning: ring4.json: joint finger2_joint3 has no actuator: plans are not "
                  "simulated")):
@@ -507,7 +507,7 @@ class Gait(ProgramCase):
     def break_tip_off_contact(self, plan):
         finger = plan["initial"]["contacts"][0]["finger"]
         plan["hand"]["initial"]["joints"][finger][1] += 0.002
-        return 0, (f"the tip of finger {finger}", "µm from its contact", "limit 1 µm")
+        return 0, (f"the fingertip of finger {finger}", "µm from its contact", "limit 1 µm")
 
     def break_joint_limit(self, plan):
         held = [contact["finger"] for contact in plan["initial"]["contacts"]]

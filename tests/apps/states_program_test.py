@@ -22,7 +22,7 @@ class States(ProgramCase):
     def test_states_have_all_that_a_simulation_is_set_to(self):
         done = self.assert_done(*self.arguments(
             "--export-states", "6", "--seed", "3", "--output", "states", "--export-mjcf", "scene"))
-        self.assertIn("held, and written  ", done.stdout)
+        self.assertIn("stable, written  ", done.stdout)
         self.assertIn("confidence", done.stdout)
         states = read_npz(self.path("states/states.npz"))
         for name, width in PER_STATE.items():
