@@ -62,7 +62,7 @@ TableFile RangeTable(const std::string& name, const std::string& title, const st
 TableFile ProtocolTable(const std::vector<Sample>& holds, const std::vector<Sample>& switches) {
   TableFile table{
       "protocols",
-      "What passes with adapted forces and at fixed squeeze",
+      "Grasps that pass with adapted forces and with constant grasp force",
       {"grasps", "holds, adapted", "holds, fixed", "switches, adapted", "switches, fixed"},
       {}};
   const auto add = [&](const std::string& name, const std::function<bool(const Sample&)>& in) {

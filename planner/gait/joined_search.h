@@ -136,7 +136,7 @@ class TurnSearch : public StartSearch {
   ObjectMotionChecker checker_;
   ObjectMotionChecker back_checker_;
   GaitSearch forward_;
-  std::map<int, Root> roots_;  ///< by stance
+  std::map<int, Root> roots_;  ///< roots, by stance
   std::set<std::pair<int, int>>
       joined_;  ///< pairs of forward and backward stances for which Join was called
 };

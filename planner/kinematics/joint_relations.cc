@@ -18,7 +18,7 @@ namespace {
 
 /// Linear equation of joint angles: Σ coefficient · angle = constant, radians.
 struct JointEquation {
-  std::map<int, double> coefficients;  ///< by joint of the model
+  std::map<int, double> coefficients;  ///< coefficients, by joint of the model
   double constant = 0;
   std::string source;
 };
