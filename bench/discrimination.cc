@@ -161,7 +161,7 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
     return s.ratio < 1 ? std::nullopt : std::optional(s.quality);
   };
   WriteTable(
-      RangeTable("holds_by_friction", "Random grasps that pass, by friction over the critical one",
+      RangeTable("holds_by_friction", "Random grasps that pass, by friction over the required one",
                  "friction", kRatios, holds, ratio),
       folder);
   WriteTable(RangeTable("holds_by_quality", "Force-closure grasps that pass, by quality", "quality",
@@ -169,7 +169,7 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
              folder);
   WriteTable(
       RangeTable("switches_by_friction",
-                 "Random switches that pass, by friction over the critical one of the grasp after",
+                 "Random switches that pass, by friction over the required one of the grasp after",
                  "friction", kRatios, switches, ratio),
       folder);
   WriteTable(RangeTable("switches_by_quality",
