@@ -89,7 +89,7 @@ class BidirectionalSearch : public StartSearch {
 class TurnSearch : public StartSearch {
  public:
   /// @param track  track of the forward search.
-  /// @param forward, backward  idle postures of the two directions.
+  /// @param forward, backward  idle configurations of the two directions.
   /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
   TurnSearch(const HandSetup& setup, const PoseTrack& track, IdleConfigurations forward,
              IdleConfigurations backward, criteria::GraspMemory& memory, RandomStream& random);

@@ -400,7 +400,7 @@ void MjcfConverter::DropControls() {
     for (XmlElement& key : section.children) {
       for (const char* attribute : {"ctrl", "act"}) {
         if (key.Find(attribute) == nullptr) continue;
-        Record(key, attribute, "left out: actuators are left out");
+        Record(key, attribute, "left out: the conversion omits actuators");
         key.Remove(attribute);
       }
     }
