@@ -257,7 +257,7 @@ def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
         gaps: Signed distances (N, selected fingers), m.
     """
     if not len(grasps):
-        return "no contacts found: the files hold no grasp"
+        return "no contacts found: the input has no grasps"
     chosen = _chosen(options.fingers, hand)
     touching = np.abs(gaps) <= options.tolerance_mm / 1000
     if touching.any():

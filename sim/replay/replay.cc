@@ -73,6 +73,15 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   return result;
 }
 
+/// Return the phase of the motion of an entry in messages.
+std::string PhaseOf(const plan::Plan& plan, plan::EntryIndex index) {
+  if (index == 0) return "while the fingers grasp";
+  const plan::Step& step = plan::StepOf(plan, index);
+  return std::holds_alternative<plan::Align>(step)
+             ? "during the sliding step"
+             : std::string("during the ") + plan::StepKind(step);
+}
+
 /// Return the fault that the monitor found, with the present state of the world.
 plan::Fault DescribeFault(const ReplayWorld& world, const object::Object& object, double scale) {
   const MotionMonitor& monitor = world.monitor();
@@ -175,9 +184,7 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
   RestoreRoles(world);
   world.StartMonitoring();
   try {
-    world.monitor().SetPhase(index == 0 ? "while the fingers grasp"
-                                        : std::string("during the ") +
-                                              plan::StepKind(plan::StepOf(plan, index)));
+    world.monitor().SetPhase(PhaseOf(plan, index));
     Perform(world, object, plan, index, result);
     world.monitor().SetPhase("after the fingers stop");
     ComeToRest(world);

@@ -185,7 +185,7 @@ class Animation(ProgramCase):
     def test_a_terminal_is_told_how_many_frames_are_drawn(self):
         done, shown = self.run_on_terminal(*self.of_grasp("--animate", *SMALL))
         self.assertEqual(done.returncode, 0, shown)
-        count = int(re.findall(r"moving picture: frame 1 of (\d+)", shown)[0])
+        count = int(re.findall(r"drawing the animation: frame 1 of (\d+)", shown)[0])
         self.assertGreater(count, 8)
         self.assert_stages(shown, "reading ", "drawing frames: frame 1 of 1",
                            "drawing the animation: frame 1 of",

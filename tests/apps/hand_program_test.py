@@ -98,7 +98,7 @@ class Hand(ProgramCase):
         self.assert_refused(2, ["hand.json: /couplings", "f2", "<mimic>", "found none"],
                             "--model", "hand.json")
         for mimic, words in (('joint="f1" multiplier="1,1"', ["line 1", "multiplier", "1,1"]),
-                             ('joint="f1" multiplier="0"', ["holds joint f2"]),
+                             ('joint="f1" multiplier="0"', ["fixes joint f2"]),
                              ('joint="g1"', ["f2 and g1", "two fingers"]),
                              ('joint="x1"', ["f2", "x1"])):
             self.write("ring.urdf", self.urdf(mimic=f"<mimic {mimic}/>"))

@@ -447,7 +447,7 @@ class Lines(ProgramCase):
             self.assert_refused(2, f"{option[0]} requires --batch", *one, "--output", "o", *option)
         many = (*one, "--batch", "queries.jsonl")
         for words, rest in (("--shard: expected I/N", ["--output", "o", "--shard", "3/2"]),
-                            ("--output: with --batch a file", ["--output", "-"]),
+                            ("--output: with --batch must be a file", ["--output", "-"]),
                             ("queries.jsonl", ["--output", "queries.jsonl"])):
             self.assert_refused(2, words, *many, *rest)
         self.assert_refused(2, "gone.jsonl: no such file", *one, "--batch", "gone.jsonl", "--output", "o")

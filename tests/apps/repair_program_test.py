@@ -149,7 +149,7 @@ class Repair(ProgramCase):
                             "--output", "result", program="validate")
 
     def test_a_refusal_says_what_a_repair_would_make_of_it(self):
-        words = ["1 border", "--repair makes a solid of it", "fill-holes", "deviation 0 %"]
+        words = ["1 border", "--repair produces a solid", "fill-holes", "deviation 0 %"]
         self.assert_refused(2, words, "--object", "open.obj", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--output", "p.json", program="plan")
 

@@ -78,7 +78,7 @@ class States(ProgramCase):
             self.assertEqual(few[name], one[name][:2], name)
 
     def test_what_cannot_be_held_ends_with_one_line(self):
-        self.assert_refused(1, ["no states", "cube.obj", "no random grasp"],
+        self.assert_refused(1, ["no states", "cube.obj", "random grasps"],
                             *self.arguments("--export-states", "2", scale="10"))
         self.assert_refused(1, ["no states", "1000", "support the weight"],
                             *self.arguments("--export-states", "2", "--mass", "50"))

@@ -473,7 +473,7 @@ class Validate(ProgramCase):
                 self.assertEqual((region["claimed"], region["holds"]), (claimed, holds))
                 self.assertEqual(len(done.stderr.splitlines()), 0 if holds else 1)
                 if not holds:
-                    self.assertIn("warning: step 1: the plan claims a contact region of 0.008",
+                    self.assertIn("warning: step 1: contact region: expected 0.008",
                                   done.stderr)
 
     def test_refuses_a_contact_region_that_is_no_length(self):
@@ -833,12 +833,12 @@ class Validate(ProgramCase):
         done = self.run_program(*self.arguments(verify="tampered.json", output=None))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("1 switch  not proved", done.stdout)
-        self.assertIn("\nnot proved: not every entry", done.stdout)
+        self.assertIn("\nnot proved: a step has no valid proof", done.stdout)
         del report["steps"][1:]
         self.write_json("tampered.json", report)
         done = self.run_program(*self.arguments(verify="tampered.json", output=None))
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("1 switch  not proved: the report has no proof", done.stdout)
+        self.assertIn("1 switch  not proved: proof not found in the report", done.stdout)
 
     def test_a_lost_object_is_refuted(self):
         report = self.assert_fails(0, "not-force-closure", "--certificates", friction_angle="2")

@@ -123,7 +123,7 @@ TEST_F(MisreadFilesTest, SurfacesOfPlyInOtherElements) {
   ExpectRefused("two_lists.ply",
                 ply("element face 1\n" + list + "property list uchar int vertex_index\n",
                     "3 0 1 2 3 0 2 1\n"),
-                "two lists of vertex indices");
+                "expected one list of vertex indices, found two");
   ExpectRefused("two_faces.ply",
                 ply("element face 2\n" + list + "element face 2\n" + list, FacetText("3 ", "\n")),
                 "element \"face\": must be unique");
@@ -296,7 +296,7 @@ TEST_F(MisreadFilesTest, PackagesOf3mfThatAreAmbiguous) {
                 StoredZip({{"_rels/.rels", RelationshipsTo({"/a.model", "/b.model"})},
                            {"a.model", model},
                            {"b.model", model}}),
-                "several relationships to a model");
+                "expected one relationship to a model, found several");
   ExpectRefused(
       "two_of_a_name.3mf",
       StoredZip(
@@ -318,7 +318,7 @@ TEST_F(MisreadFilesTest, PackagesOf3mfThatAreAmbiguous) {
   refused("<object id=\"1\" type=\"surface\">" + MeshOf3mf() + "</object>", item, "",
           "type: not supported, expected \"model\", found \"surface\"");
   refused("<object id=\"1\" type=\"support\">" + MeshOf3mf() + "</object>", item, "",
-          "build: no object of type \"model\"");
+          "build: object of type \"model\" not found");
   refused("<object id=\"1\"/>", item, "", "expected a mesh or components, found neither");
   refused(solid, "<item objectid=\"1\" printable=\"0\"/>", "", "item: printable");
   refused(solid, "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0\"/>", "", "transform");

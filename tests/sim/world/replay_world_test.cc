@@ -123,7 +123,7 @@ TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
   const MotionMonitor& monitor = held.world.monitor();
   EXPECT_LT(monitor.moved_m(), options.tolerance * held.world.settings().diameter_m);
   EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
-  EXPECT_THAT(monitor.detail(), HasSubstr("did not come to rest"));
+  EXPECT_THAT(monitor.detail(), HasSubstr("does not settle"));
 }
 
 /// Expect that the first step of a plan passes at a tolerance slightly above its motion and slip.
