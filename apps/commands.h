@@ -12,17 +12,13 @@ struct Command {
 };
 
 inline constexpr std::array<Command, 7> kCommands = {{
-    {"plan", "Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan."},
-    {"validate",
-     "Checks plans or grasps analytically, replays them in MuJoCo, tests every static grasp with "
-     "disturbances, and reports pass or fail."},
-    {"graph", "Builds the switching graph of an object and prints its size."},
-    {"figure", "Draws every step of a regrasp plan as a figure for a paper, and a sheet of all."},
-    {"repair",
-     "Makes a closed solid of a scan, a broken mesh or several shells, and reports the changes."},
-    {"merge", "Joins the shards of a run over many plans into the file that one run writes."},
-    {"hand",
-     "Finds palm, fingers and fingertips in a hand model, and prints joints, limits and reach."},
+    {"plan", "Find a regrasp sequence from a start grasp to a goal grasp."},
+    {"validate", "Check plans or grasps analytically and in simulation."},
+    {"graph", "Build the switching graph of an object and print its size."},
+    {"figure", "Draw each step of a plan as a figure, and a sheet of all steps."},
+    {"repair", "Make a closed solid of a scan, a broken mesh or several shells."},
+    {"merge", "Join the shards of a run over many plans into one file."},
+    {"hand", "Find palm, fingers and fingertips of a hand model and write a hand file."},
 }};
 
 /// Return the purpose of a program; empty for an unknown name.

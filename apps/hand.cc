@@ -36,7 +36,7 @@ struct HandProgram {
 
 void HandProgram::AddTo(CLI::App& app) {
   BeginGroup(app, "Input");
-  app.add_option("--model", model, "Hand model. MJCF or URDF, or a hand file that names one")
+  app.add_option("--model", model, "Hand model. MJCF, URDF, or a hand file that contains its path")
       ->type_name("FILE")
       ->required();
   BeginGroup(app, "Output");

@@ -194,7 +194,7 @@ void HandOptions::AddTo(CLI::App& app) {
                  "the step of each; `validate` checks every marked goal")
       ->type_name("FILE");
   app.add_option("--continue", continue_plan,
-                 "Plan whose end is the start: the object's pose, the contacts and all joints. "
+                 "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")
       ->type_name("PLAN");
   AddNumber(app, "--clearance", clearance_m, {0, kLargestClearance_m, true, true},

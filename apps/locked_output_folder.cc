@@ -106,9 +106,10 @@ Descriptor Lock(const fs::path& folder, const fs::path& file, std::chrono::milli
     if (!held && IsAt(file, opened)) return opened;
     if (waited >= patience) {
       const std::vector<std::string> holders = LinesWith(kHolder, ReadAll(opened));
-      throw EnvironmentError(folder.string() + ": " +
-                             (holders.empty() ? "another process" : "process " + holders.back()) +
-                             " is writing into this folder; wait for it, or give another --output");
+      throw EnvironmentError(
+          folder.string() + ": " +
+          (holders.empty() ? "another process" : "process " + holders.back()) +
+          " writes into this folder; help: wait for it, or pass another --output");
     }
     std::this_thread::sleep_for(kPause);
   }

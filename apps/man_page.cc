@@ -76,11 +76,11 @@ std::string CommandsText(const CLI::App& app) {
 
 constexpr char kExitStatus[] =
     ".SH EXIT STATUS\n"
-    ".TP\n.B 0\ndone; of\n.BR validate (1):\npass\n"
-    ".TP\n.B 1\na negative answer: no sequence, the plan failed, or the time was up\n"
-    ".TP\n.B 2\nbad usage or bad input: one line that names the file, the element and what is "
-    "wrong\n"
-    ".TP\n.B 3\nthe environment failed\n";
+    ".TP\n.B 0\nsuccess; from\n.BR validate (1):\npass\n"
+    ".TP\n.B 1\nnegative result: no plan found, fail, or time limit reached\n"
+    ".TP\n.B 2\nbad usage or bad input: one line with the file, the element and the "
+    "problem\n"
+    ".TP\n.B 3\nerror of the environment\n";
 
 }  // namespace
 

@@ -156,7 +156,8 @@ class PlanLines {
     const bool other = std::filesystem::exists(program_.output, error) &&
                        !std::filesystem::is_regular_file(program_.output, error);
     if (program_.output == "-" || other) {
-      throw InputError("--output: with --batch a file, which a run that was stopped goes on with");
+      throw InputError(
+          "--output: with --batch must be a file, because an interrupted run continues it");
     }
     CheckOutputsWritable(outputs);
   }

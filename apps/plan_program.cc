@@ -35,7 +35,7 @@ constexpr int kMostJobs = 1024;
 std::string CheckerComplaint(const plan::PlanCheck& check) {
   const auto failed = std::ranges::find_if(
       check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
-  return "the checker fails this plan in step " + std::to_string(failed->index) + ", " +
+  return "the plan fails the analytic check at step " + std::to_string(failed->index) + ", " +
          failed->kind + ": " + failed->detail;
 }
 
@@ -110,7 +110,7 @@ void PlanProgram::AddSearch(CLI::App& app) {
 
 void PlanProgram::AddBatch(CLI::App& app) {
   app.add_option("--batch", batch,
-                 "File of queries in JSON Lines. --output gets one line per query, a plan or the "
+                 "File of queries in JSON Lines. --output has one line per query, a plan or the "
                  "reason why there is none. Other options are defaults of all queries, and "
                  "--object is their object or a folder of objects. An interrupted run continues")
       ->type_name("FILE");
@@ -155,7 +155,7 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
   if (given) request.given_points = &*given;
   if (hand_file) {
     if (object.object->dimension() != 3) {
-      throw InputError("--hand: hands hold solids, and no planar objects");
+      throw InputError("--hand: requires a solid, found a planar object");
     }
     planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
     task.simulate =

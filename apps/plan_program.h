@@ -62,7 +62,7 @@ struct PlanProgram {
   std::string shard;
   int jobs;
   bool fresh = false;  ///< whether to discard the results of an earlier run
-  /// Given options that change results, each with its values.
+  /// Options of the command line that change results, each with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
   /// Function that is called once, when the search for a hand's plan begins.
   /// The input has been checked by then.

@@ -77,7 +77,7 @@ constexpr char kHelpAll[] = "--help-all";
 /// @throws InputError  if the option has no value, or several words instead of one list.
 void CheckValue(const OptionHelp& option, std::span<const std::string> words) {
   if (!option.type.empty() && words.empty() && !option.value_optional) {
-    throw InputError(option.name + ": a value is required: " + option.name + " " + option.type);
+    throw InputError(option.name + ": requires a value, as in " + option.name + " " + option.type);
   }
   if (option.type.find(',') == std::string::npos || words.size() < 2) return;
   std::string value;
@@ -148,7 +148,7 @@ void PrintNotes(const std::string& program, const RenamedWords& renamed) {
 std::string ParseErrorText(const CLI::ParseError& error) {
   const std::string text = error.what();
   const auto repeated = text.find(": At Most 1 required");
-  return repeated == std::string::npos ? text : text.substr(0, repeated) + ": given more than once";
+  return repeated == std::string::npos ? text : text.substr(0, repeated) + ": must be given once";
 }
 
 int Run(CLI::App& app, std::vector<std::string> words, const std::string& called,

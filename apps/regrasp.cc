@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
       Become(argv[1], argv + 1);
     });
   }
-  CLI::App app("Plans how a hand changes its grip on an object, and validates such plans.",
+  CLI::App app("Plan how a hand changes its grasp on an object, and validate such plans.",
                kProgram);
   for (const Command& command : kCommands) app.add_subcommand(command.name, command.text);
   app.footer(

@@ -154,7 +154,7 @@ class Renamer {
     }
     const std::string old = std::string(kContact) + " " + *value;
     if (program_ == "graph") {
-      if (*value == "soft") throw InputError(old + ": no planner with a graph supports it");
+      if (*value == "soft") throw InputError(old + ": not supported by graph");
       return Note(old, "the only contact model of graph");
     }
     if (*value == "soft") {

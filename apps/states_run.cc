@@ -103,17 +103,17 @@ std::string Percent(double share) { return FormatShort(100 * share, 3) + " %"; }
 /// Return the table for the terminal.
 std::string SummaryOf(const sim::DrawnStates& drawn) {
   std::vector<TextRow> rows = {{"random grasps", "number"},
-                               {"held, and written", std::to_string(drawn.states.size())}};
+                               {"stable, written", std::to_string(drawn.states.size())}};
   for (const auto& [reason, count] : drawn.fallen) {
     rows.push_back({"fallen: " + std::string(plan::ReasonName(reason)), std::to_string(count)});
   }
   if (drawn.unbalanced > 0) {
-    rows.push_back({"too weak for the weight, not simulated", std::to_string(drawn.unbalanced)});
+    rows.push_back({"cannot support the weight, not simulated", std::to_string(drawn.unbalanced)});
   }
   const ShareInterval interval = drawn.interval();
   return FormatRows(rows) + "fallen: " + Percent(drawn.fallen_share()) + " (" +
          Percent(interval.lower) + " to " + Percent(interval.upper) + " at " +
-         Percent(sim::kTrialConfidence) + " confidence) of those that were tried\n";
+         Percent(sim::kTrialConfidence) + " confidence) of the simulated grasps\n";
 }
 
 void WriteStates(const ValidateOptions& options, const StatesTask& task,

@@ -43,8 +43,7 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   const auto add = [&app](const std::string& name, auto& value, const std::string& text) {
     return app.add_option(name, value, text)->type_name("FILE");
   };
-  add("--object", options.object_path,
-      "Object file, or a folder with the object files that the plans name")
+  add("--object", options.object_path, "Object file, or the folder of the plans' object files")
       ->required();
   CLI::Option* plan =
       add("--plan", options.plans,
@@ -58,7 +57,8 @@ void AddInputs(CLI::App& app, ValidateOptions& options) {
   CLI::Option* grasps =
       add("--grasps", options.grasps_path,
           "Check many grasps in an NPZ file. Arrays points and normals (N, k, 3), or (N, k, 2) in "
-          "the plane; holds (N, k) is the mask of contacts. Normals can be omitted in the interior "
+          "the plane; active (N, k) is the mask of contacts. Normals can be omitted in the "
+          "interior "
           "of faces. Writes verdicts.npz; with --replay points also simulates force-closure grasps")
           ->excludes(plan)
           ->excludes(grasp);
@@ -219,12 +219,13 @@ void AddFeedback(CLI::App& app, ValidateOptions& options) {
       .Key("bias-mm", MillimetresParser(sensing.pose_bias_m))
       .Key("bias-deg", DegreesParser(sensing.pose_bias_rad))
       .AddTo(app, "pose|none[,KEY=VALUE,…]",
-             "Measurement of the object's pose in a replay by the hand [default: pose]\n"
+             "Measured object pose in the hand replay [default: pose]\n"
              "pose: a camera; none: joints and touch only\n"
              "delay=S: age of a measured pose [default: 0.05]\n"
              "rate=HZ: measured poses per second [default: 30]\n"
-             "noise-mm=MM, noise-deg=DEG: standard deviations on each axis [default: 0.3, 0.3]\n"
-             "bias-mm=MM, bias-deg=DEG: the same of constant errors [default: 0, 0]");
+             "noise-mm=MM, noise-deg=DEG: standard deviations per axis [default: 0.3, 0.3]\n"
+             "bias-mm=MM, bias-deg=DEG: standard deviations of constant errors per axis [default: "
+             "0, 0]");
 }
 
 void AddReplay(CLI::App& app, ValidateOptions& options) {

@@ -42,7 +42,7 @@ struct ValidateOptions {
   bool quality = false;            ///< whether to compute the grasp quality of each grasp
   bool replay_grasps = false;      ///< whether to simulate the grasps that are force closure
   int states = 0;                  ///< number of reset states to make, instead of a plan
-  /// smallest grasp quality of reset states
+  /// Minimum grasp quality of reset states
   double min_quality = criteria::GraspCriteria().min_quality;
   std::string out;
   std::string junit;
@@ -97,7 +97,7 @@ struct ValidateOptions {
   std::string shard;   ///< part of a JSON Lines file; empty: all
   /// Given settings of list options: `--replay tip`, "--tolerance mm".
   std::set<std::string> settings;
-  /// Given options that change results, with their values, for a run's digest.
+  /// Options of the command line that change results, with values, for a digest.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
 
   ValidateOptions();

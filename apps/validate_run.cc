@@ -88,8 +88,8 @@ sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& p
 
 std::string UncheckedHandWarning(const ValidateOptions& options, const plan::Plan& plan) {
   if (!plan.hand || !options.hand.empty()) return "";
-  return "the plan is for the hand " + plan.hand->name + "; --hand " + plan.hand->file +
-         " checks its joints and paths, too";
+  return "joints and paths not checked: the plan is for the hand " + plan.hand->name +
+         "; help: pass --hand " + plan.hand->file;
 }
 
 render::FrameOptions FrameOptionsFor(const ValidateOptions& options, const ValidateTask& task) {
@@ -164,7 +164,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   if (!options.video.empty()) {
     files.push_back({options.video, *render::FindAnimationFormat(options.video)});
   }
-  DrawingCount count("drawing the moving picture", options.quiet);
+  DrawingCount count("drawing the animation", options.quiet);
   return WriteAnimation(
       *task.object->object, task.plan,
       {.frame = frame, .hand = hand, .workers = options.workers, .on_picture = count.reporter()},
@@ -303,7 +303,7 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
     PrintMessage(kValidateName, "warning: " + warning);
   }
   if (!options.quiet && options.trials.count > 0 && !report.trials) {
-    PrintMessage(kValidateName, "note: no trials, because the replay without noise fails");
+    PrintMessage(kValidateName, "note: trials skipped, because the replay without noise fails");
   }
   if (!options.quiet && options.json != kStandardStream) {
     PrintTable(report::FormatReportTable(report), FilesText(folder, report));
@@ -317,7 +317,7 @@ void Print(const ValidateOptions& options, const ValidateTask& task,
 void WriteSceneFolder(const std::string& folder, const std::vector<sim::SceneFile>& files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw EnvironmentError(folder + ": cannot be made: " + error.message());
+  if (error) throw EnvironmentError(folder + ": cannot be created: " + error.message());
   for (const sim::SceneFile& file : files) {
     WriteFile(std::filesystem::path(folder) / file.name, file.bytes);
   }

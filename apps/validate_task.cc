@@ -58,17 +58,17 @@ OutputFiles OutputsOf(const ValidateOptions& options) {
 /// Check that the options do not contradict the plan's repair of its object.
 void CheckRepair(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.repair.shells() && options.repair.shells() != plan.shells) {
-    throw InputError("--shells must match " + options.plan_path + ": /object/shells" +
-                     (plan.shells ? "" : ", which the plan does not have"));
+    throw InputError("--shells: must match " + options.plan_path + ": /object/shells" +
+                     (plan.shells ? "" : ", found a plan without it"));
   }
   if (!options.repair.wanted()) return;
   if (!plan.repair) {
-    throw InputError("--repair cannot be used with " + options.plan_path +
-                     ", which was made for an unrepaired object");
+    throw InputError("--repair: cannot be used with " + options.plan_path +
+                     ", a plan for an unrepaired object");
   }
   const object::RepairOptions given = options.repair.Get();
   if (given != object::RepairOptions() && given != plan.repair->options) {
-    throw InputError("--repair must match " + options.plan_path + ": /object/repair");
+    throw InputError("--repair: must match " + options.plan_path + ": /object/repair");
   }
 }
 
@@ -78,8 +78,8 @@ void ReadGivenPoints(const std::string& object_path, const object::Reading& read
   if (task.plan.repair && !task.object->repair) {
     throw InputError(object_path + ": the contacts of the plan are at points of " +
                      task.plan.object_file +
-                     "; give that file (--object), not what a repair made "
-                     "of it");
+                     "; help: pass that file with --object instead of the "
+                     "repaired one");
   }
   task.given_points = object::ReadGivenPoints(object_path, reading);
 }
@@ -147,8 +147,7 @@ void ReadPlanTask(const ValidateOptions& options, const object::Reading& plain,
 /// Refuse a replay by a hand with soft contacts before the long part of the work.
 void CheckSoftFingers(const ValidateOptions& options, const plan::Plan& plan) {
   if (options.contact.torsion().value_or(plan.torsion) == 0 || !options.replay_by_hand) return;
-  throw InputError(
-      "--replay hand: a hand's fingertips are hard points, and these contacts are soft fingers");
+  throw InputError("--replay hand: soft-finger contacts not supported, expected hard contacts");
 }
 
 /// Check that options and hand fit the object and the plan.
@@ -156,7 +155,8 @@ void CheckFits(const ValidateOptions& options, const ValidateTask& task) {
   CheckTorsionFits(options, *task.object->object);
   CheckSoftFingers(options, task.plan);
   if (options.replay.thickness && task.plan.dimension == 3) {
-    throw InputError("--thickness: " + options.object_path + " is a solid, not a planar object");
+    throw InputError("--thickness: requires a planar object, found the solid " +
+                     options.object_path);
   }
   const object::Object& object = *task.object->object;
   if (options.replay.finger_radius) {
@@ -182,8 +182,7 @@ void FinishTask(const ValidateOptions& options, ValidateTask& task) {
 
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object) {
   if (options.contact.torsion().value_or(0) == 0 || object.dimension() == 3) return;
-  throw InputError("--torsion: " + options.object_path +
-                   " is planar, and no contact has a torque about its normal there");
+  throw InputError("--torsion: requires a solid, found the planar object " + options.object_path);
 }
 
 void CheckOutputs(const ValidateOptions& options) {
@@ -244,7 +243,7 @@ validation::ValidationRequest RequestOf(const ValidateOptions& options, const Va
   const object::Object& object = *task.object->object;
   const bool with_hand = !options.hand.empty();
   if (with_hand && (object.dimension() != 3 || options.for_grasp())) {
-    throw InputError("--hand: checks plans for solids that were made for a hand");
+    throw InputError("--hand: requires a solid and a plan for a hand");
   }
   return {.object = object,
           .plan = task.plan,

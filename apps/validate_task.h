@@ -26,7 +26,7 @@ struct SharedInputs {
 struct ValidateTask {
   SharedObject object;
   std::string file_text;  ///< text of the plan or of the grasp
-  plan::Plan plan;        ///< for a grasp, the plan that holds it
+  plan::Plan plan;        ///< the plan; for a grasp, the plan that holds it
   /// Points that the object's file gives, if the plan's contacts are at them.
   std::vector<Eigen::Vector3d> given_points;
   SharedInputs shared;

@@ -49,9 +49,9 @@ std::string DescribeProof(const motion::ProofVerdict& verdict) {
 
 /// Return the failure of a step, except for force closure; empty if there is none.
 std::string FaultOf(const plan::StepCheck& check) {
-  if (check.skipped) return "not checked: an entry before it is at fault";
+  if (check.skipped) return "not checked: an earlier step fails";
   if (check.reason == plan::Reason::kNone) return "";
-  return "at fault: " + std::string(plan::ReasonName(check.reason)) + ": " + check.detail;
+  return "fails: " + std::string(plan::ReasonName(check.reason)) + ": " + check.detail;
 }
 
 std::string DescribeProofs(const certificate::EntryVerdict& entry) {
@@ -84,18 +84,18 @@ std::string Summary(const std::vector<plan::StepCheck>& checks, std::size_t prov
                     double friction_angle) {
   const std::string entries = std::to_string(checks.size());
   std::string text = std::to_string(proved) + " of " + entries +
-                     " entries proved force closure in exact arithmetic, friction angle " +
+                     " steps proved force closure in exact arithmetic, friction angle " +
                      FormatShort(Degrees(friction_angle)) + "°\n";
   const auto fault = std::ranges::find_if(
       checks, [](const plan::StepCheck& check) { return check.reason != plan::Reason::kNone; });
   if (fault != checks.end()) {
-    return text + "not proved: the plan fails the analytic check in entry " +
+    return text + "not proved: the plan fails the analytic check at step " +
            std::to_string(fault->index) + "\n";
   }
-  if (proved < checks.size()) return text + "not proved: not every entry has a valid proof\n";
+  if (proved < checks.size()) return text + "not proved: a step has no valid proof\n";
   return text +
          "proved: contacts on the surface, fingers free and in contact as required, steps without "
-         "jumps, aligns on their faces, the goal, and force closure at every instant\n";
+         "jumps, sliding steps on their faces, the goal, and force closure at every instant\n";
 }
 
 }  // namespace
@@ -113,7 +113,9 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
   const plan::JsonReader steps = root.Member("steps");
   const std::vector<certificate::EntryProof> proofs = ReadProofs(steps, plan.dimension);
   const std::size_t entries = plan.steps.size() + 1;
-  if (proofs.size() > entries) steps.Fail("has more entries than the plan");
+  if (proofs.size() > entries)
+    steps.Fail("expected at most " + std::to_string(entries) + " steps as in the plan, found " +
+               std::to_string(proofs.size()));
 
   plan::CheckOptions options = subject.check;
   options.judge_force_closure = false;
@@ -131,7 +133,7 @@ ReportVerification VerifyReport(std::string_view text, const std::string& name,
     const plan::StepCheck& entry = check.steps[i];
     const std::string fault = FaultOf(entry);
     verification.text += std::to_string(i) + " " + entry.kind + "  " +
-                         (fault.empty() ? "not proved: the report has no proof of it" : fault) +
+                         (fault.empty() ? "not proved: proof not found in the report" : fault) +
                          "\n";
   }
   verification.text += Summary(check.steps, proved, plan.friction_angle);

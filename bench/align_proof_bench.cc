@@ -229,7 +229,8 @@ void PrintRow(const std::string& body, double degrees) {
 
 int main() {
   std::printf(
-      "| body | half-angle, degrees | segments that hold, %% | degree 1, %% | us | degree 2, %% | "
+      "| object | friction angle, degrees | valid segments, %% | degree 1, %% | us | degree 2, %% "
+      "| "
       "us | halved, %% | pieces | us proved | us rejected | decided, us |\n");
   for (const char* body : kBodies) {
     for (const double degrees : kDegrees) PrintRow(body, degrees);

@@ -68,14 +68,14 @@ struct Variant {
 };
 
 const std::vector<Variant> kVariants = {
-    {"as they are", [](sim::ReplayOptions&) {}},
-    {"shake ρ 0.005", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.005; }},
-    {"shake ρ 0.02", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.02; }},
-    {"no shake, gravity alone", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0; }},
+    {"default", [](sim::ReplayOptions&) {}},
+    {"disturbance ρ 0.005", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.005; }},
+    {"disturbance ρ 0.02", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0.02; }},
+    {"gravity only", [](sim::ReplayOptions& o) { o.disturbance_ratio = 0; }},
     {"tolerance 1e-4 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-4; }},
     {"tolerance 1e-2 D", [](sim::ReplayOptions& o) { o.tolerance = 1e-2; }},
-    {"squeeze 100 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 100; }},
-    {"squeeze 10,000 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 10'000; }},
+    {"grasp force 100 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 100; }},
+    {"grasp force 10,000 weights", [](sim::ReplayOptions& o) { o.grasp_force_N = 10'000; }},
     {"finger stiffness halved", [](sim::ReplayOptions& o) { o.stiffness_factor = 0.5; }},
     {"finger stiffness doubled", [](sim::ReplayOptions& o) { o.stiffness_factor = 2; }},
     {"time step halved", [](sim::ReplayOptions& o) { o.timestep_factor = 0.5; }},
@@ -96,8 +96,8 @@ sim::ReplayOptions OptionsFor(const Variant& variant) {
 
 TableFile SettingsTable(const std::vector<GraspedBody>& bodies, int count, std::uint64_t seed) {
   TableFile table{"settings",
-                  "What the settings change: grasps that pass",
-                  {"setting", "at most 0.98 of the critical friction", "0.98 to 1",
+                  "Grasps that pass, by setting",
+                  {"setting", "at most 0.98 of the required friction", "0.98 to 1",
                    "above it, quality under 0.01", "0.01 to 0.02", "0.02 and more"},
                   {}};
   for (const Variant& variant : kVariants) {
@@ -121,7 +121,7 @@ TableFile SettingsTable(const std::vector<GraspedBody>& bodies, int count, std::
 
 ScatterPlot PlotOf(const std::vector<Sample>& samples) {
   ScatterPlot plot;
-  plot.x_title = "friction over the grasp's critical friction";
+  plot.x_title = "friction over the grasp's required friction";
   plot.y_title = "largest displacement over the diameter";
   plot.x_from = kLeastRatio;
   plot.x_to = kMostRatio;
@@ -129,8 +129,8 @@ ScatterPlot PlotOf(const std::vector<Sample>& samples) {
   plot.y_to = 10;
   plot.level = sim::ReplayOptions().tolerance;
   plot.level_name = "tolerance";
-  plot.series = {{"force closure, quality above the shake", "#2166ac", {}},
-                 {"force closure, quality below the shake", "#e08214", {}},
+  plot.series = {{"force closure, quality above the disturbance", "#2166ac", {}},
+                 {"force closure, quality below the disturbance", "#e08214", {}},
                  {"not force closure", "#b2182b", {}}};
   for (const Sample& sample : samples) {
     const std::size_t series =
@@ -161,7 +161,7 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
     return s.ratio < 1 ? std::nullopt : std::optional(s.quality);
   };
   WriteTable(
-      RangeTable("holds_by_friction", "Random grasps that pass, by friction over the critical one",
+      RangeTable("holds_by_friction", "Random grasps that pass, by friction over the required one",
                  "friction", kRatios, holds, ratio),
       folder);
   WriteTable(RangeTable("holds_by_quality", "Force-closure grasps that pass, by quality", "quality",
@@ -169,7 +169,7 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
              folder);
   WriteTable(
       RangeTable("switches_by_friction",
-                 "Random switches that pass, by friction over the critical one of the grasp after",
+                 "Random switches that pass, by friction over the required one of the grasp after",
                  "friction", kRatios, switches, ratio),
       folder);
   WriteTable(RangeTable("switches_by_quality",
@@ -186,7 +186,7 @@ int Run(const std::filesystem::path& models, const std::filesystem::path& folder
   };
   const auto false_passes = std::count_if(holds.begin(), holds.end(), false_pass) +
                             std::count_if(switches.begin(), switches.end(), false_pass);
-  std::printf("%zu holds, %zu switches, %d passes at or below 0.98 of the critical friction\n",
+  std::printf("%zu holds, %zu switches, %d passes at or below 0.98 of the required friction\n",
               holds.size(), switches.size(), static_cast<int>(false_passes));
   return false_passes == 0 ? 0 : 1;
 }

@@ -152,7 +152,7 @@ BENCHMARK(Time<QhullForceClosure, kHullGrasps>)
     ->DenseRange(0, 1)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK(TimePlanar)->Name("exact cones in the plane")->DenseRange(0, 1);
-BENCHMARK(TimeRequired)->Name("required half-angle")->Unit(benchmark::kMicrosecond);
+BENCHMARK(TimeRequired)->Name("required friction angle")->Unit(benchmark::kMicrosecond);
 BENCHMARK(TimeSubsets)->Name("all 4-subsets")->Arg(60)->Arg(70)->Unit(benchmark::kMillisecond);
 
 template <typename Test>

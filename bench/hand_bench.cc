@@ -297,21 +297,23 @@ int main(int argc, char** argv) {
   double degrees = 90;
   std::vector<std::string> hands;
   std::vector<std::string> only;
-  app.add_option("--seeds", contest.seeds, "Plans for each hand and object");
-  app.add_option("--limit", contest.limit_s, "Seconds for each");
-  app.add_option("--axis", axis, "x, y or z of the object")->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--degrees", degrees, "Of the turn");
-  app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a turn");
-  app.add_option("--reserve", contest.robustness, "Of plans: 0 none, 1 preferred, 2 required");
-  app.add_flag("--replay", contest.replay, "Also carry plans out by the hand's own actuators");
+  app.add_option("--seeds", contest.seeds, "Number of plans per hand and object");
+  app.add_option("--limit", contest.limit_s, "Time limit per plan, seconds");
+  app.add_option("--axis", axis, "Rotation axis of the object: x, y or z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--degrees", degrees, "Rotation angle, degrees");
+  app.add_flag("--pairs", contest.pairs, "Two grasps at one pose instead of a rotation");
+  app.add_option("--reserve", contest.robustness,
+                 "Robustness of plans: 0 none, 1 preferred, 2 required");
+  app.add_flag("--replay", contest.replay, "Also simulate plans on the hand's actuators");
   app.add_option("--plan-mu", contest.plan_mu,
-                 "Friction that is planned with, of 0.8 that there is");
-  app.add_option("--min-quality", contest.min_quality, "Of the grasps of plans");
+                 "Friction coefficient of the planner; the simulation has 0.8");
+  app.add_option("--min-quality", contest.min_quality, "Minimum grasp quality of plans");
   app.add_option(
       "--of-critical", contest.of_critical,
-      "Friction in replays of plans that pass, over what the weight and the shakes need at "
-      "their weakest rest, with contacts where they have rolled to (default: 0.8)");
-  app.add_option("--body", only, "Only the bodies that are named so");
+      "Friction in replays of passing plans, relative to the friction that their weakest static "
+      "grasp requires after rolling [default: 0.8]");
+  app.add_option("--body", only, "Names of objects [default: all]");
   app.add_option("hands", hands, "Hand files")->required();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -47,17 +47,17 @@ struct Arguments {
   ContestLimits limits = {100, 60};
 
   void AddTo(CLI::App& app) {
-    app.add_option("MODELS_FOLDER", models, "Where the models are")
+    app.add_option("MODELS_FOLDER", models, "Folder of the models")
         ->required()
         ->check(CLI::ExistingDirectory);
-    app.add_option("OUTPUT_FOLDER", folder, "Where the tables go")->required();
+    app.add_option("OUTPUT_FOLDER", folder, "Folder of the tables")->required();
     app.add_option("MODEL", names, "Files of the folder (default: ten in space, five planar)");
-    app.add_option("--pairs", limits.pairs, "Pairs of grasps on a body at a friction")
+    app.add_option("--pairs", limits.pairs, "Number of pairs of grasps per object and friction")
         ->check(CLI::Range(1, kMostPairs))
         ->capture_default_str();
     app.add_option("--seconds", limits.seconds,
-                   "Processor time of a planner on a body at a friction, after which it is asked "
-                   "for no further pair")
+                   "Processor time per planner, object and friction; no further pair starts "
+                   "after it")
         ->check(IsPositive)
         ->capture_default_str();
   }
@@ -102,13 +102,13 @@ std::vector<std::string> Cells(const Standing& standing, int pairs) {
               standing, [](const PairAnswer& answer) { return Degrees(answer.margin); }, 2),
           Mean(
               standing, [](const PairAnswer& answer) { return answer.travel; }, 2),
-          asked < pairs ? "time was up" : ""};
+          asked < pairs ? "time limit" : ""};
 }
 
 std::vector<std::string> Columns(const std::string& last) {
-  return {"body",       "half-angle (°)", "contacts",   "planner",   "pairs",
-          "joined (%)", "graph (ms)",     "mean (ms)",  "most (ms)", "steps",
-          "aligns",     "margin (°)",     "travel (D)", last};
+  return {"object",        "friction angle (°)", "contacts",   "planner",   "pairs",
+          "solved (%)",    "graph (ms)",         "mean (ms)",  "most (ms)", "steps",
+          "sliding steps", "margin (°)",         "travel (D)", last};
 }
 
 class Tables {

@@ -118,7 +118,7 @@ struct DeleteData {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
 
-/// Run as many steps as the replay of the plan, and nothing else.
+/// Run only as many steps as the replay of the plan.
 void BM_BareSteps(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   engine_time = {};

@@ -62,14 +62,14 @@ TableFile RangeTable(const std::string& name, const std::string& title, const st
 TableFile ProtocolTable(const std::vector<Sample>& holds, const std::vector<Sample>& switches) {
   TableFile table{
       "protocols",
-      "What passes with adapted forces and at fixed squeeze",
+      "Grasps that pass with adapted forces and with constant grasp force",
       {"grasps", "holds, adapted", "holds, fixed", "switches, adapted", "switches, fixed"},
       {}};
   const auto add = [&](const std::string& name, const std::function<bool(const Sample&)>& in) {
     table.rows.push_back({name, Share(holds, in), Share(holds, in, &Sample::passed_fixed),
                           Share(switches, in), Share(switches, in, &Sample::passed_fixed)});
   };
-  add("friction at most 0.98 of the critical one", [](const Sample& s) { return s.ratio <= 0.98; });
+  add("friction at most 0.98 of the required one", [](const Sample& s) { return s.ratio <= 0.98; });
   add("0.98 to 1", [](const Sample& s) { return s.ratio > 0.98 && s.ratio < 1; });
   for (const Range& range : kQualities) {
     add("quality " + range.name, [&](const Sample& s) {

@@ -78,8 +78,7 @@ std::string FixOfCollision(const plan::Fault& fault) {
     return "plan with a larger --clearance, or with motions in which fingertips roll less";
   }
   const bool apart = fault.hand && fault.hand->gap_m && *fault.hand->gap_m > 0;
-  if (!apart)
-    return "use another path or other contacts: no --clearance allows links inside each other";
+  if (!apart) return "use another path or other contacts, because links penetrate each other";
   return "use another path or other contacts; note: the check passes with a --clearance below " +
          FormatLength(*fault.hand->gap_m);
 }
@@ -227,14 +226,14 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kCoincidentFingers:
       return "in a static grasp no two fingers can be at one point";
     case Reason::kDiscontinuous:
-      return "an align must begin with the grasp before it and keep its fingers";
+      return "a sliding step must begin with the grasp before it and keep its fingers";
     case Reason::kLeavesFace:
       return "between two waypoints a finger must move straight inside one face, or keep its point "
              "and rotate from one face to the next";
     case Reason::kNotForceClosure:
       return "with this friction the contact forces cannot resist every wrench";
     case Reason::kNotProved:
-      return "a step that is neither proved nor refuted does not pass";
+      return "force closure must be proved at every instant";
     case Reason::kUnreachable:
       return "a finger approaches along the normal, and must not overlap the object or another "
              "finger";
@@ -267,7 +266,7 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
              ", and its collision geometry, if a sphere represents it, by at most half the "
              "sphere's radius";
     case Reason::kSimulationUnstable:
-      return "the simulation diverged, so this step was not evaluated";
+      return "the simulation must not diverge; this step is not evaluated";
     case Reason::kContactLost:
       return "a finger in contact must stay on the surface";
     case Reason::kSlipped:

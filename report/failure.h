@@ -14,7 +14,7 @@ inline constexpr char kTrialsFailed[] = "trials-failed";
 /// The terminal, the HTML report, the images, report.json and JUnit use the same text. A plan that
 /// passes has none.
 struct Failure {
-  plan::EntryIndex entry{0};  ///< not valid if all steps pass and too few trials do
+  plan::EntryIndex entry{0};  ///< failed entry; invalid if only the trials fail
   std::string kind;           ///< "hold", or as StepKind; "trials"
   std::string reason;         ///< "slipped", or kTrialsFailed
   /// Description of the fault with number and unit: "finger 2 slipped by 300 µm".

@@ -45,9 +45,8 @@ void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
   }
   const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;
   if (std::ranges::any_of(limits, IsUnlimited)) {
-    warnings.push_back("the hand's model gives no force limit for " + UnlimitedText(limits) +
-                       ": the verdict takes their strength as unlimited, largest torque " +
-                       TorqueText(torque) + " N·m");
+    warnings.push_back("force limits not found in the hand model for " + UnlimitedText(limits) +
+                       ", treated as unlimited; largest torque " + TorqueText(torque) + " N·m");
   }
   if (const auto& soft = report.settings->hand->soft_stiffness) {
     warnings.push_back("the model's servos are softer than those of the replay, from " +
@@ -113,11 +112,11 @@ std::vector<std::string> Warnings(const Report& report) {
     if (step.region && !step.region->holds) {
       const auto [width, claimed] =
           FormatWithLimit(step.region->half_width, *step.region->claimed, 4);
-      warnings.push_back(name + ": the plan claims a contact region of " + claimed +
-                         ", but it is " + width);
+      warnings.push_back(name + ": contact region: expected " + claimed +
+                         " as in the plan, found " + width);
     }
     if (step.certificate && !step.certificate->proves()) {
-      warnings.push_back(name + ": the plan's certificate is not valid: " + step.certificate->why);
+      warnings.push_back(name + ": invalid certificate in the plan: " + step.certificate->why);
     }
   }
   AddHandWarnings(report, warnings);

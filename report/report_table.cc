@@ -309,7 +309,7 @@ std::string FormatUndecided(const Report& report) {
   for (const ReportStep& step : report.steps) undecided += step.check.undecided;
   if (undecided == 0) return "";
   return "undecided: " + std::to_string(undecided) +
-         " pieces of aligns, a millionth of the path each\n";
+         " pieces of sliding steps, a millionth of the path each\n";
 }
 
 /// Format the object and the grasp force.

@@ -301,7 +301,7 @@ std::string Link(const PlanOutcome& plan, const std::string& file) {
 Parts Picture(const PlanOutcome& plan) {
   const std::string picture = plan.report ? PictureOf(*plan.report) : "";
   if (picture.empty()) return {};
-  const std::string what = picture == kSheet ? "All frames of " : "What fails in ";
+  const std::string what = picture == kSheet ? "All frames of " : "Failure of ";
   return {Element(
       "a", {{"href", Link(plan, kPage)}},
       Element("img",

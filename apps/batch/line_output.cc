@@ -105,7 +105,7 @@ LinesOutput::LinesOutput(fs::path path, const LinesHeader& header, bool fresh)
 bool LinesOutput::HoldPart() {
   file_ = Descriptor(open(part_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kNewMode));
   if (file_.get() < 0) FailWith(std::strerror(errno));
-  if (!Lock(file_.get())) FailWith("another process writes it");
+  if (!Lock(file_.get())) FailWith("locked, another process writes this file");
   // The process that held the lock may have renamed the part.
   struct stat held, there;
   // Reading a pipe would block.
@@ -216,7 +216,7 @@ void LinesOutput::CopyWhole() {
   while (left > 0) {
     piece.resize(static_cast<std::size_t>(std::min(left, kPieceBytes)));
     if (!keeping_.read(piece.data(), static_cast<std::streamsize>(piece.size()))) {
-      FailWith(path_.string() + " was changed meanwhile");
+      FailWith(path_.string() + " was changed during the run");
     }
     WriteAll(file_.get(), piece);
     left -= static_cast<std::int64_t>(piece.size());
@@ -255,7 +255,7 @@ std::optional<std::string> LinesOutput::FindEarlier(std::int64_t entry, const Ac
 
 void LinesOutput::Count(std::string_view line) {
   const std::optional<Outcome> outcome = OutcomeOf(line, next_);
-  if (!outcome) throw std::logic_error("a line is not that of entry " + std::to_string(next_));
+  if (!outcome) throw std::logic_error("expected the line of entry " + std::to_string(next_));
   ++counts_[*outcome];
   ++next_;
 }

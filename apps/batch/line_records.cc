@@ -93,7 +93,7 @@ std::optional<LinesHeader> ParseHeader(std::string_view line, const std::string&
   header.content = root.Member("content").OneOf({"plans", "reports"});
   const plan::JsonReader entries = root.Member("entries");
   if (entries.Unsigned() > kMostEntries) {
-    entries.Fail("more than " + std::to_string(kMostEntries) + " entries");
+    entries.Fail("too large, limit " + std::to_string(kMostEntries) + " entries");
   }
   header.entries = static_cast<std::int64_t>(entries.Unsigned());
   header.shard.count = root.Member("shards").Integer(1, kMostShards);

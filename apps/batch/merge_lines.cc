@@ -51,8 +51,8 @@ void CheckSameRun(const ShardFile& first, const ShardFile& other) {
            "; the first shard is ");
   }
   if (other.header.shard.count != expected.shard.count) {
-    refuse("is " + ShardText(other.header.shard) + ", and of " +
-           std::to_string(expected.shard.count) + " is ");
+    refuse("expected a shard of " + std::to_string(expected.shard.count) + ", found " +
+           ShardText(other.header.shard) + "; the first shard is ");
   }
   if (other.header.run != expected.run || other.header.entries != expected.entries) {
     refuse("belongs to a run with different input, options or build than ");

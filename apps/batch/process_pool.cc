@@ -61,7 +61,7 @@ class SignalEvents {
     const int error = errno;
     Restore();
     errno = error;
-    FailWith("signals cannot be waited for");
+    FailWith("child processes: signal descriptor cannot be created");
   }
   ~SignalEvents() { Restore(); }
   SignalEvents(const SignalEvents&) = delete;
@@ -162,7 +162,7 @@ class Pool {
 
 Stream::Stream() : in_(-1), out_(-1) {
   std::array<int, 2> ends;
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) FailWith("no pipe to a child process");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) FailWith("child processes: pipe cannot be created");
   in_ = Descriptor(ends[0]);
   out_ = Descriptor(ends[1]);
   fcntl(in(), F_SETFL, O_NONBLOCK);
@@ -195,7 +195,7 @@ void Pool::Start(int index) {
   std::fflush(nullptr);
   const pid_t parent = getpid();
   const pid_t process = fork();
-  if (process < 0) FailWith("no child process");
+  if (process < 0) FailWith("child process cannot be started");
   if (process == 0) RunChild(index, parent, output, errors);
   output.CloseOut();
   errors.CloseOut();

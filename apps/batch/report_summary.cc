@@ -116,7 +116,7 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   }
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();
-  if (steps.empty()) list.Fail("is empty");
+  if (steps.empty()) list.Fail("expected at least one step, found none");
   for (const plan::JsonReader& step : steps) summary.entries.push_back(ReadEntry(step));
   const plan::JsonReader weakest = root.Member("weakest_step");
   if (weakest.IsNull()) return summary;

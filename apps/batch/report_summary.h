@@ -24,7 +24,7 @@ struct ReportSummary {
   struct Trials {
     int count = 0;
     int passed = 0;
-    std::string detail = {}, why = {}, suggested_fix = {};  ///< if too few pass
+    std::string detail = {}, why = {}, suggested_fix = {};  ///< failure text if too few pass
     bool enough = true;
   };
   bool passed = false;

@@ -50,7 +50,7 @@ std::filesystem::path MeshOf(const std::string& object, const std::filesystem::p
 
 HandBody BodyOfFile(const std::string& name, const std::filesystem::path& path) {
   HandBody body{name, path.filename().string(), ReadFile(path), object::ReadObject(path), 1};
-  if (body.file.object->dimension() != 3) throw InputError(path.string() + ": is no solid");
+  if (body.file.object->dimension() != 3) throw InputError(path.string() + ": must be a solid");
   return body;
 }
 
@@ -67,7 +67,7 @@ void SetDisplacement(const Eigen::Isometry3d& palm, const Eigen::Isometry3d& pal
 
 BihTasks ReadBih(const std::filesystem::path& sheet, const std::filesystem::path& meshes) {
   if (!std::filesystem::is_directory(meshes)) {
-    throw InputError(meshes.string() + ": is no folder of meshes");
+    throw InputError(meshes.string() + ": must be a folder of meshes");
   }
   const CsvTable table = CsvTable::Parse(ReadFile(sheet), sheet.string());
   BihTasks bih;

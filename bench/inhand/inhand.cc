@@ -69,48 +69,49 @@ struct InHandProgram {
 };
 
 void InHandProgram::AddTo(CLI::App& app) {
-  app.add_option("hands", hand_files, "Hand files, of the format regrasp-hand")->type_name("HAND");
-  app.add_option("--tasks", tasks_file, "Other tasks than those of the scoreboard")
+  app.add_option("hands", hand_files, "Hand files (format regrasp-hand)")->type_name("HAND");
+  app.add_option("--tasks", tasks_file, "File of tasks [default: the tasks of the scoreboard]")
       ->type_name("FILE");
-  app.add_option("--only", only, "Shell pattern of names or groups of tasks; may be given again")
+  app.add_option("--only", only, "Shell pattern of names or groups of tasks; repeatable")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
-  app.add_option("--results", results,
-                 "Where rows go, JSON Lines; what is there already is not run again")
+  app.add_option("--results", results, "File of result rows (JSON Lines). Existing rows are reused")
       ->type_name("FILE");
-  app.add_option("--table", table, "A Markdown file whose tables are made anew of the results")
+  app.add_option("--table", table, "Markdown file whose tables are updated from the results")
       ->type_name("FILE");
-  app.add_option("--plans", plans, "Where plan files go, in a folder for each hand")
+  app.add_option("--plans", plans, "Folder for plan files, with one subfolder per hand")
       ->type_name("FOLDER");
   apps::AddNumber(app, "--limit", limit_s, {0, kLongest_s, false, true},
-                  "Processor time to plan one task, seconds (default 8)", "S");
-  apps::AddInteger(app, "--jobs", jobs, 1, kMostJobs, "Tasks at a time (default 1)");
-  app.add_option("--task", task, "Judge a plan for this task; --plan says which")
-      ->type_name("NAME");
-  app.add_option("--plan", plan, "A plan file that is judged")->type_name("FILE");
+                  "Processor time per task, seconds [default: 8]", "S");
+  apps::AddInteger(app, "--jobs", jobs, 1, kMostJobs, "Number of parallel tasks [default: 1]");
+  app.add_option("--task", task, "Task for which --plan is validated")->type_name("NAME");
+  app.add_option("--plan", plan, "Plan file to validate")->type_name("FILE");
   app.add_option("--bih", bih,
-                 "Also the tasks of the benchmark BIH; its sheet of palm poses, saved as CSV")
+                 "Also run the tasks of the benchmark BIH: its table of palm poses as CSV")
       ->type_name("FILE");
-  app.add_option("--meshes", meshes, "Where the solids of BIH's objects are, in metres")
+  app.add_option("--meshes", meshes, "Folder of the solids of BIH's objects, metres")
       ->type_name("FOLDER");
-  app.add_flag("--list", list, "Print tasks and bodies");
-  app.add_option("--bodies", write_bodies, "Write the bodies' files there; for other planners")
+  app.add_flag("--list", list, "Print tasks and objects");
+  app.add_option("--bodies", write_bodies,
+                 "Folder to which the object files are written, for other planners")
       ->type_name("FOLDER");
-  app.add_flag("--quiet", quiet, "No progress");
+  app.add_flag("--quiet", quiet, "Do not print progress");
 }
 
 void InHandProgram::Check() const {
-  if (task.empty() != plan.empty()) throw InputError("--task and --plan need each other");
+  if (task.empty() != plan.empty())
+    throw InputError("--task: requires --plan, and --plan requires --task");
   if (!task.empty() && hand_files.size() != 1) {
-    throw InputError("--plan: one hand file says which hand the plan is for");
+    throw InputError("--plan: requires exactly one hand file");
   }
-  if (bih.empty() != meshes.empty()) throw InputError("--bih and --meshes need each other");
-  if (!table.empty() && results.empty()) throw InputError("--table: --results says of which rows");
+  if (bih.empty() != meshes.empty())
+    throw InputError("--bih: requires --meshes, and --meshes requires --bih");
+  if (!table.empty() && results.empty()) throw InputError("--table: requires --results");
   if (task.empty() && !hand_files.empty() && results.empty()) {
-    throw InputError("--results is required where tasks are run");
+    throw InputError("--results is required to run tasks");
   }
   if (hand_files.empty() && table.empty() && write_bodies.empty() && !list) {
-    throw InputError("nothing to do: hand files, --table, --list or --bodies");
+    throw InputError("hand files, --table, --list or --bodies is required");
   }
 }
 
@@ -132,8 +133,8 @@ void InHandProgram::ReadBih() {
   std::ranges::move(read.tasks, std::back_inserter(tasks_));
   std::ranges::move(read.bodies, std::back_inserter(bodies_));
   for (const std::string& object : read.without_mesh) {
-    apps::PrintMessage(kProgram, "warning: " + meshes + ": has no mesh of the object " + object +
-                                     ", whose tasks are left out");
+    apps::PrintMessage(kProgram, "warning: " + meshes + ": mesh of the object " + object +
+                                     " not found, its tasks are skipped");
   }
 }
 
@@ -204,8 +205,7 @@ int InHandProgram::Run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Puts in-hand tasks to hands, and judges plans on the hands' own actuators.",
-               kProgram);
+  CLI::App app("Run in-hand tasks on hands, and validate plans on the hands' actuators.", kProgram);
   InHandProgram program;
   program.AddTo(app);
   return regrasp::apps::RunProgram(app, argc, argv, [&] { return program.Run(); });

@@ -43,7 +43,7 @@ void CheckGoal(const Task& task, const HandBody& body, const plan::Plan& plan,
   const Eigen::Isometry3d goal = GoalPose(task, body.centre(), plan.hand->initial.pose);
   const PoseError off = Between(EndOf(plan).pose, goal, body.centre());
   const auto refuse = [&](const std::string& what) {
-    throw InputError(name + ": is no plan for " + task.name + ": " + what);
+    throw InputError(name + ": not a plan for " + task.name + ": " + what);
   };
   if (off.radians > kMostOff_rad) {
     refuse("the body ends " + FormatShort(Degrees(off.radians), 3) + " degrees from its goal");

@@ -122,7 +122,7 @@ std::vector<Row> ParseRows(std::string_view text, const std::string& name) {
     try {
       rows.push_back(RowOf(ParseJson(line, place)));
     } catch (const nlohmann::json::exception& error) {
-      throw InputError(place + ": is no row of the scoreboard: " + error.what());
+      throw InputError(place + ": not a row of the scoreboard: " + error.what());
     }
   }
   return rows;

@@ -84,7 +84,7 @@ Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& h
   row.limit_s = run.limit_s;
   if (!task.after.empty() && !start) {
     row.reason = kNoStart;
-    row.detail = task.after + " has no plan that goes on";
+    row.detail = task.after + " has no plan to continue";
     return row;
   }
   const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s);

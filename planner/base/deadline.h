@@ -27,7 +27,8 @@ class Stopwatch {
 /// Error: a computation has reached its deadline.
 class TimeUp : public std::runtime_error {
  public:
-  explicit TimeUp(const std::string& message = "the time was up") : std::runtime_error(message) {}
+  explicit TimeUp(const std::string& message = "time limit reached")
+      : std::runtime_error(message) {}
 };
 
 /// Deadline of a computation; without a time it never passes.

@@ -68,7 +68,7 @@ ShareInterval ComputeShareInterval(int successes, int trials, double confidence)
     throw std::invalid_argument("ComputeShareInterval: not 0 <= successes <= trials");
   }
   if (!(confidence > 0 && confidence < 1)) {
-    throw std::invalid_argument("ComputeShareInterval: the confidence is not between 0 and 1");
+    throw std::invalid_argument("ComputeShareInterval: the confidence must be between 0 and 1");
   }
   using Binomial = boost::math::binomial_distribution<double>;
   const double left_out = (1 - confidence) / 2;

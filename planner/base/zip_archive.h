@@ -37,7 +37,7 @@ class ZipArchive {
 struct NpzArray {
   std::string name;
   std::vector<std::size_t> shape;
-  std::vector<double> values = {};      ///< in row-major order
+  std::vector<double> values = {};      ///< values in row-major order
   std::vector<std::string> texts = {};  ///< UTF-8; invalid bytes become U+FFFD
   bool is_truth = false;  ///< whether the numbers are truth values and written as such: 0 is false
 };

@@ -44,7 +44,7 @@ std::optional<plan::AlignCertificate> FindAlignCertificate(const plan::Align& pr
 motion::ProofVerdict CheckAlignCertificate(const plan::Align& projected, int dimension, double mu,
                                            const plan::AlignCertificate& certificate) {
   if (certificate.size() + 1 != projected.waypoints.size()) {
-    return {motion::ProofVerdict::Kind::kNothing, "not one proof for each pair of waypoints"};
+    return {motion::ProofVerdict::Kind::kNothing, "expected one proof per pair of waypoints"};
   }
   for (std::size_t w = 0; w < certificate.size(); ++w) {
     const grasp::Grasp to = ContactsInOrder(projected.waypoints[w + 1], projected.waypoints[w]);

@@ -44,11 +44,11 @@ motion::ProofVerdict Nothing(std::string why) { return {VerdictKind::kNothing, s
 /// Return why the torques of a proof are invalid; empty if they are valid.
 std::string TorqueFault(const std::vector<ExactContact>& contacts, const GraspProof& proof) {
   if (proof.torques.empty()) return "";
-  if (proof.torques.size() != contacts.size()) return "not one torque a contact";
+  if (proof.torques.size() != contacts.size()) return "expected one torque per contact";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!std::isfinite(proof.torques[i])) return "a torque is not finite";
+    if (!std::isfinite(proof.torques[i])) return "torques must be finite";
     if (contacts[i].torsion == 0 && proof.torques[i] != 0) {
-      return "contact " + std::to_string(i) + " has a torque, and is a hard point";
+      return "contact " + std::to_string(i) + " is a hard point, expected torque 0";
     }
   }
   return "";
@@ -62,10 +62,10 @@ Rational TwistSquared(const ExactContact& contact, const Rational& torque) {
 
 motion::ProofVerdict CheckForces(const std::vector<ExactContact>& contacts, int dimension,
                                  const Rational& mu, const GraspProof& proof) {
-  if (proof.forces.size() != contacts.size()) return Nothing("not one force a contact");
-  if (!AllFinite(proof.forces)) return Nothing("a force is not finite");
+  if (proof.forces.size() != contacts.size()) return Nothing("expected one force per contact");
+  if (!AllFinite(proof.forces)) return Nothing("forces must be finite");
   if (const std::string fault = TorqueFault(contacts, proof); !fault.empty()) return Nothing(fault);
-  if (!Span(contacts, dimension)) return Nothing("the contacts are on one line");
+  if (!Span(contacts, dimension)) return Nothing("the contacts are collinear");
   const Layout layout(dimension);
   const int count = static_cast<int>(contacts.size());
   const int first_torque = dimension * count;
@@ -109,8 +109,8 @@ motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
     const Rational approach = Dot(n, u);
     if (approach >= 0 || approach * approach * (1 + mu * mu) <
                              mu * mu * (Dot(u, u) * Dot(n, n) + turning * turning)) {
-      return Nothing("some force in the cone of contact " + std::to_string(i) +
-                     " works with the twist");
+      return Nothing("a force in the cone of contact " + std::to_string(i) +
+                     " has positive power with the twist");
     }
   }
   return {VerdictKind::kNotForceClosure, ""};
@@ -118,7 +118,7 @@ motion::ProofVerdict CheckVelocities(const std::vector<ExactContact>& contacts,
 
 motion::ProofVerdict CheckTwist(const std::vector<ExactContact>& contacts, const Rational& mu,
                                 const Vector& v, const Vector& omega) {
-  if (IsZero(v) && IsZero(omega)) return Nothing("the twist is zero");
+  if (IsZero(v) && IsZero(omega)) return Nothing("the twist must not be zero");
   std::vector<Vector> velocities;
   for (const ExactContact& contact : contacts) velocities.push_back(v + Cross(omega, contact.p));
   return CheckVelocities(contacts, velocities, omega, mu);
@@ -129,7 +129,7 @@ motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const 
                                const std::array<int, 2>& line) {
   const int count = static_cast<int>(contacts.size());
   if (line[0] < 0 || line[1] < 0 || line[0] >= count || line[1] >= count) {
-    return Nothing("the line is through contacts that are none");
+    return Nothing("the line has contacts that do not exist");
   }
   const Vector& a = contacts[line[0]].p;
   for (const int sign : {1, -1}) {
@@ -137,8 +137,8 @@ motion::ProofVerdict CheckLine(const std::vector<ExactContact>& contacts, const 
     const motion::ProofVerdict verdict = CheckTwist(contacts, mu, Cross(a, omega), omega);
     if (verdict.kind == VerdictKind::kNotForceClosure) return verdict;
   }
-  return Nothing("about the line of contacts " + std::to_string(line[0]) + " and " +
-                 std::to_string(line[1]) + " the others turn the object both ways");
+  return Nothing("neither rotation about the line of contacts " + std::to_string(line[0]) +
+                 " and " + std::to_string(line[1]) + " refutes force closure");
 }
 
 }  // namespace
@@ -151,14 +151,14 @@ motion::ProofVerdict CheckGraspProof(std::span<const grasp::Contact> contacts, i
       return CheckForces(exact, dimension, mu, proof);
     case GraspProof::Kind::kTwist:
       if (!proof.v.allFinite() || !proof.omega.allFinite())
-        return Nothing("the twist is not finite");
+        return Nothing("the twist must be finite");
       return CheckTwist(exact, mu, Exact(proof.v), Exact(proof.omega));
     case GraspProof::Kind::kLine:
       return CheckLine(exact, mu, proof.line);
     case GraspProof::Kind::kNone:
       break;
   }
-  return Nothing("there is no proof");
+  return Nothing("proof not found");
 }
 
 }  // namespace regrasp::certificate

@@ -127,7 +127,7 @@ std::vector<EntryVerdict> CheckPlanProofs(const plan::Plan& projected, double mu
                                           std::span<const EntryProof> proofs) {
   const std::vector<Entry> entries = EntriesOf(projected);
   if (proofs.size() > entries.size()) {
-    throw std::invalid_argument("more proofs than the plan has entries");
+    throw std::invalid_argument("more proofs than steps of the plan");
   }
   std::vector<EntryVerdict> verdicts;
   for (std::size_t i = 0; i < proofs.size(); ++i) {

@@ -13,8 +13,8 @@ namespace regrasp::collision {
 /// A sphere has one point, a capsule two, and a box eight with radius 0. Links of hands and
 /// triangles of objects are such shapes.
 struct ConvexShape {
-  std::vector<Eigen::Vector3d> points;  ///< at least one point
-  double radius = 0;                    ///< at least 0
+  std::vector<Eigen::Vector3d> points;  ///< corners, at least one
+  double radius = 0;                    ///< radius, at least 0
 };
 
 /// Return a shape moved by a pose.

@@ -165,7 +165,8 @@ class GraspEvaluator {
   double friction_angle_;
   mutable grasp::QualityFilter filter_;
   mutable Counts counts_;
-  mutable std::map<std::vector<double>, KnownGrasp> known_;  ///< by the coordinates of a grasp
+  mutable std::map<std::vector<double>, KnownGrasp>
+      known_;  ///< results, by the coordinates of a grasp
 };
 
 /// Set of contacts that a hand holds at the same time.

@@ -66,7 +66,7 @@ constexpr double kDistanceAccuracy = 1e-4;
 constexpr int kDistanceDigits = 3;
 
 /// Unit of radii in messages.
-constexpr char kUnits[] = " (units of the object's file)";
+constexpr char kUnits[] = " (units of the object file)";
 
 /// Return true iff another face enters the capsule that a finger sweeps during the last `travel`
 /// before contact.
@@ -107,21 +107,20 @@ bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
 
 void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
   if (radius <= object.diameter()) return;
-  throw InputError(name + ": " + FormatShort(radius) +
-                   " must be at most the object's diameter of " + FormatShort(object.diameter()) +
-                   " (in the unit of the object's file)");
+  throw InputError(name + ": must be at most the object's diameter of " +
+                   FormatShort(object.diameter()) + kUnits + ", found " + FormatShort(radius));
 }
 
 std::optional<std::string> FindObstacle(const object::Object& object, const grasp::Contact& contact,
                                         double radius) {
   if (CanReach(object, contact, radius)) return std::nullopt;
   if (IsShutIn(object, contact)) {
-    return "its contact is in a sealed cavity, which no finger reaches from outside";
+    return "its contact is in a sealed cavity";
   }
   const double clearance = ComputeClearance(object, contact, radius);
   if (clearance < kTouchesInside * radius) {
-    return "a ball of radius " + FormatShort(radius) + " at its contact enters the object; " +
-           FormatShort(clearance) + " fits" + kUnits;
+    return "a sphere of radius " + FormatShort(radius) +
+           " at its contact penetrates the object, limit " + FormatShort(clearance) + kUnits;
   }
   double free = 0;
   double blocked = object.diameter();

@@ -95,8 +95,8 @@ class ChangePaths {
 
   /// Plan the paths of all fingers that change.
   /// @param from  stance before the change.
-  /// @param to  stance after the change. If the released finger finds no path to its idle posture,
-  ///     its idle posture becomes the one above its contact.
+  /// @param to  stance after the change. If the released finger finds no path to its idle
+  ///     configuration, its idle configuration becomes the one above its contact.
   /// @param node  grid node that both stances can reach.
   /// @param rolled  fingertips before and after the change.
   /// @returns the certified segments; nullopt if a finger finds no path.

@@ -44,10 +44,10 @@ std::string ProgressText(const GaitRequest& request, const GaitCounts& counts) {
       counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
   if (fraction == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
   if (fraction == 1 && request.goal && request.goal->facing() != nullptr && counts.at_goal == 0) {
-    return "the object comes near its goal, but no grasp is found that holds it there";
+    return "the object gets close to its goal, but no stable grasp is found there";
   }
   if (fraction == 1 && request.goal && counts.at_goal == 0) {
-    return "the object comes near its goal pose, but no grasp is found that holds it there";
+    return "the object gets close to its goal pose, but no stable grasp is found there";
   }
   if (fraction == 1) return "every path to the goal is infeasible";
   if (request.goal) {

@@ -46,7 +46,7 @@ struct GaitResult {
   /// simulator gives no result.
   std::optional<planning::ExecutionResult> execution;
   std::vector<grasp::Contact> contacts;  ///< contacts by number, in object units
-  std::string message;                   ///< if there is no gait: the reason, with counts
+  std::string message;                   ///< reason with counts if no gait is found
 };
 
 /// Find a gait of a hand that rotates or translates the object.

@@ -28,7 +28,7 @@ constexpr std::int64_t kFewestExpanded = 40;
 
 /// A parameter of the request with its alternative values, smallest change first.
 struct Relaxation {
-  std::string no_help;  ///< for example "more friction"
+  std::string no_help;  ///< change without effect, for example "more friction"
   std::vector<double> changes;
   /// Changes the request. Returns the change in words.
   std::function<std::string(double, GaitRequest&)> change;

@@ -32,7 +32,7 @@ struct GaitExecution {
   int changes = 0;             ///< contact changes completed before the failure
   bool is_held = true;         ///< the initial grasp holds the object
   bool fails_in_move = false;  ///< the failure occurs in an in-hand motion
-  bool is_whole = false;       ///< all segments execute
+  bool is_whole = false;       ///< whether all segments execute
   bool is_cut_short = false;   ///< the time limit was reached before a failure
   plan::Reason reason = {};    ///< reason of the failure
 };
@@ -94,7 +94,7 @@ class EdgeSimulation {
   int farthest_ = 0;
   FailureCounts failures_;
   std::set<std::tuple<int, int, ContactAssignment>> failed_;  ///< stance, grid node and assignment
-  std::map<int, FailedChanges> failed_changes_;               ///< by stance
+  std::map<int, FailedChanges> failed_changes_;               ///< rejected changes, by stance
 };
 
 /// Statistics of a search, for messages and for the selection between searches.

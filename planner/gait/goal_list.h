@@ -11,10 +11,10 @@ namespace regrasp::gait {
 
 /// Result of a search of a plan through a list of goals.
 struct GoalListResult {
-  std::optional<plan::Plan> plan;  ///< with a mark for each goal
+  std::optional<plan::Plan> plan;  ///< plan with a mark for each goal
   /// Result of the simulated execution of the whole plan, as in GaitResult.
   std::optional<planning::ExecutionResult> execution;
-  std::string message;  ///< if there is no plan: the first goal that is not reached, and why
+  std::string message;  ///< first goal that is not reached, with the reason
 };
 
 /// Append a plan that starts at the end of another one, for the same hand and object.

@@ -31,7 +31,7 @@ inline constexpr double kTipDepth = 2e-4;
 /// Collision shapes of a finger in one joint configuration, in the palm's frame.
 struct PlacedFinger {
   FingerIndex finger;
-  std::vector<collision::ConvexShape> shapes;    ///< in the order of Finger::shapes
+  std::vector<collision::ConvexShape> shapes;    ///< shapes in the order of Finger::shapes
   std::vector<collision::BoundingSphere> balls;  ///< bounding spheres of the shapes
 };
 
@@ -116,9 +116,10 @@ class HandScene {
   std::vector<collision::BoundingSphere> palm_balls_;
   std::vector<std::vector<collision::BoundingSphere>>
       balls_;  ///< bounding spheres [finger][shape], in the link's frame
-  std::vector<std::vector<ShapePair>> with_palm_;                  ///< by finger
-  std::vector<std::vector<std::vector<ShapePair>>> with_fingers_;  ///< by pair of fingers
-  std::vector<std::vector<std::vector<double>>> reach_;            ///< LinkReach [finger][shape]
+  std::vector<std::vector<ShapePair>> with_palm_;  ///< pairs with the palm, by finger
+  std::vector<std::vector<std::vector<ShapePair>>>
+      with_fingers_;                                     ///< pairs of links, by pair of fingers
+  std::vector<std::vector<std::vector<double>>> reach_;  ///< LinkReach [finger][shape]
 };
 
 /// A contact in the object's frame, metres.

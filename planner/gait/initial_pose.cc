@@ -33,9 +33,9 @@ constexpr double kNoContact = 0.3;
 constexpr int kIdleSamples = 160;
 constexpr int kMaxIdleSamples = 5000;
 constexpr int kMaxIdleConfigurations = 16;
-/// Minimum distance between two idle postures of a finger, radians, norm over all joints.
+/// Minimum distance between two idle configurations of a finger, rad, norm over joints.
 constexpr double kDistinctConfiguration = 0.5;
-/// Poses of the track from which an idle posture must be clear.
+/// Poses of the track from which an idle configuration must be clear.
 constexpr int kTrackSamples = 5;
 constexpr double kMaxIdleClearance = 0.02;  // metres; additional clearance is not rewarded
 constexpr double kBendPenalty = 0.002;      // metres per radian

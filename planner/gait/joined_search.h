@@ -89,7 +89,7 @@ class BidirectionalSearch : public StartSearch {
 class TurnSearch : public StartSearch {
  public:
   /// @param track  track of the forward search.
-  /// @param forward, backward  idle postures of the two directions.
+  /// @param forward, backward  idle configurations of the two directions.
   /// @param memory  same as in GaitSearch. setup, memory and random outlive this object.
   TurnSearch(const HandSetup& setup, const PoseTrack& track, IdleConfigurations forward,
              IdleConfigurations backward, criteria::GraspMemory& memory, RandomStream& random);
@@ -136,7 +136,7 @@ class TurnSearch : public StartSearch {
   ObjectMotionChecker checker_;
   ObjectMotionChecker back_checker_;
   GaitSearch forward_;
-  std::map<int, Root> roots_;  ///< by stance
+  std::map<int, Root> roots_;  ///< roots, by stance
   std::set<std::pair<int, int>>
       joined_;  ///< pairs of forward and backward stances for which Join was called
 };

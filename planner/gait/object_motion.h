@@ -119,8 +119,9 @@ class ObjectMotionChecker {
   const IdleConfigurations& idle_configurations_;
   ReachMap reach_;
   // Caches, filled on demand: there are many grasps, but they consist of few contacts.
-  std::unordered_map<int, bool> off_palm_;       ///< by grid node
-  std::unordered_map<std::size_t, bool> apart_;  ///< by grid node and two (finger, contact) pairs
+  std::unordered_map<int, bool> off_palm_;  ///< cached clearance of the palm, by grid node
+  std::unordered_map<std::size_t, bool>
+      apart_;  ///< cached clearance, by grid node and two (finger, contact) pairs
 };
 
 }  // namespace regrasp::gait

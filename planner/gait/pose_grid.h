@@ -115,7 +115,7 @@ class PoseGrid {
   enum class End {
     kPose,         ///< the last pose of the track
     kOrientation,  ///< the last orientation of the track, at any offset in position
-    kSet,          ///< a pose of a goal set
+    kSet,          ///< any pose of a goal set
   };
   /// @param up  upward direction in the palm's frame; tilt axes are perpendicular to it.
   /// @param end  kPose or kOrientation.
@@ -175,7 +175,7 @@ class PoseGrid {
 
   PoseTrack track_;
   End end_;
-  std::optional<plan::GoalSet> goal_;  ///< for kSet
+  std::optional<plan::GoalSet> goal_;  ///< goal set, for kSet
   /// First step from which on the whole track is in the goal set. Earlier nodes are not goals: a
   /// full rotation begins in its goal set.
   int first_goal_step_ = 0;

@@ -32,7 +32,7 @@ RandomStances::RandomStances(const GaitRequest& request, RandomStanceOptions opt
       centre_(request.scale * request.solid->mass_properties().centroid) {
   if (options_.fewest < 3 || options_.most < options_.fewest ||
       options_.most > scene_.finger_count()) {
-    throw std::invalid_argument("random rests: from three to all fingers hold");
+    throw std::invalid_argument("random stances: requires from 3 to all fingers in contact");
   }
   for (const kinematics::Finger& finger : request.hand->fingers) {
     inverse_.emplace_back(finger);

@@ -23,8 +23,8 @@ inline constexpr std::int64_t kDefaultExpanded = 8'000;
 struct GaitRequest : planning::InHandTask {
   const object::Polyhedron* solid = nullptr;
   criteria::GraspCriteria criteria;
-  grasp::Grasp start_grasp;  ///< in object units; empty: any grasp
-  grasp::Grasp goal_grasp;   ///< in object units; empty: any grasp
+  grasp::Grasp start_grasp;  ///< grasp in object units; empty: any grasp
+  grasp::Grasp goal_grasp;   ///< grasp in object units; empty: any grasp
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
   /// Select the executable gait with the largest tolerance margin

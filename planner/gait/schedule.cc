@@ -83,7 +83,7 @@ constexpr std::string_view kSimulating = "simulating a plan";
 /// Part of an attempt that is simulated.
 enum class Simulate {
   kEdges,  ///< edges during the search, and the gait
-  kGait,   ///< only the gait that the search finds
+  kGait,   ///< only the gait of the search
 };
 
 /// One search of a gait: a row of the schedule.
@@ -277,7 +277,7 @@ class AttemptRunner {
   const std::vector<grasp::Contact>& contacts_;
   const FindOne& find_;
   std::vector<Schedule> schedules_;
-  std::vector<std::vector<Outcome>> outcomes_;  ///< by schedule
+  std::vector<std::vector<Outcome>> outcomes_;  ///< outcomes, by schedule
   std::atomic<std::size_t> last_schedule_;
   std::atomic<bool> is_over_ = false;
   std::atomic<bool> is_unknown_ = false;

@@ -56,7 +56,7 @@ class MultiStartSearch {
   /// Add the search of the next initial pose.
   /// @returns false if there is none.
   bool OpenNextStart();
-  /// Create the search along a track; null if a finger has no idle posture.
+  /// Create the search along a track; null without idle configuration.
   std::unique_ptr<StartSearch> SearchAlong(const PoseTrack& track, const SearchTerms& terms,
                                            RandomStream& random);
   /// Draw initial poses, each with a track to the goal.

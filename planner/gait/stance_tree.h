@@ -52,7 +52,7 @@ struct PathFailureCounts {
   std::int64_t no_path = 0;  ///< contact changes without a free finger path
   std::int64_t no_slide =
       0;  ///< sliding steps that a finger cannot follow, or that lose force closure
-  std::int64_t no_move = 0;  ///< in-hand motions that fingers cannot follow, or that collide
+  std::int64_t no_move = 0;  ///< infeasible or colliding in-hand motions
 };
 
 /// Search tree of stances with lazily planned paths.

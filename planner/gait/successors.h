@@ -133,7 +133,7 @@ class SuccessorGenerator {
   SlideRoutes& routes_;
   bool may_change_count_;
   std::map<std::tuple<int, int, int>, std::vector<int>>
-      within_reach_;  ///< by finger, grid node, subset
+      within_reach_;  ///< cached reach, by finger, grid node and subset
 };
 
 }  // namespace regrasp::gait

@@ -77,12 +77,13 @@ constexpr std::size_t kBlockOfSlow = 4;
 
 std::size_t CountGrasps(const GraspArrays& grasps) {
   if (grasps.contacts < 1) {
-    throw std::invalid_argument("a grasp needs a contact, not " + std::to_string(grasps.contacts));
+    throw std::invalid_argument("contacts per grasp must be at least 1, found " +
+                                std::to_string(grasps.contacts));
   }
   const std::size_t values = 3 * static_cast<std::size_t>(grasps.contacts);
   if (grasps.points.size() != grasps.normals.size() || grasps.points.size() % values != 0) {
-    throw std::invalid_argument("points and normals need as many values, a multiple of " +
-                                std::to_string(values) + ", not " +
+    throw std::invalid_argument("points and normals must have equal sizes, a multiple of " +
+                                std::to_string(values) + ", found " +
                                 std::to_string(grasps.points.size()) + " and " +
                                 std::to_string(grasps.normals.size()));
   }

@@ -68,10 +68,10 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::
   CheckGrasp(contacts, frame);
   CheckFrictionAngle(friction_angle);
   if (!(total_normal > 0) || !std::isfinite(total_normal)) {
-    throw std::invalid_argument("grasp forces: the total normal force is not positive");
+    throw std::invalid_argument("grasp forces: the total normal force must be positive");
   }
   if (!load.force.allFinite() || !load.torque_over_radius.allFinite()) {
-    throw std::invalid_argument("grasp forces: the load is not finite");
+    throw std::invalid_argument("grasp forces: the load must be finite");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, friction_angle);
@@ -199,15 +199,15 @@ std::optional<QualityBounds> ComputeLargestLoad(std::span<const Contact> contact
   CheckGrasp(contacts, frame);
   CheckFrictionAngle(friction_angle);
   if (!(total_normal > 0) || !std::isfinite(total_normal)) {
-    throw std::invalid_argument("largest load: the total normal force is not positive");
+    throw std::invalid_argument("largest load: the total normal force must be positive");
   }
   for (const Wrench* wrench : {&load, &direction}) {
     if (!wrench->force.allFinite() || !wrench->torque_over_radius.allFinite()) {
-      throw std::invalid_argument("largest load: a wrench is not finite");
+      throw std::invalid_argument("largest load: wrenches must be finite");
     }
   }
   if (direction.force.isZero(0) && direction.torque_over_radius.isZero(0)) {
-    throw std::invalid_argument("largest load: the direction is zero");
+    throw std::invalid_argument("largest load: the direction must not be zero");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, friction_angle);

@@ -124,7 +124,8 @@ std::string QualityText(const QualityBounds& quality, int digits) {
 
 QualityBounds ComputeQuality(std::span<const Contact> contacts, const object::WrenchFrame& frame,
                              double friction_angle, double relative_gap) {
-  if (!(relative_gap > 0)) throw std::invalid_argument("quality: relative gap not positive");
+  if (!(relative_gap > 0))
+    throw std::invalid_argument("quality: the relative gap must be positive");
   if (!IsForceClosure(contacts, frame, friction_angle)) return {};
   const UnitContacts units = UnitNormalContacts(contacts, frame, friction_angle);
   return frame.dimension == 3 ? Quality<6>(units, relative_gap) : Quality<3>(units, relative_gap);
@@ -132,7 +133,8 @@ QualityBounds ComputeQuality(std::span<const Contact> contacts, const object::Wr
 
 bool QualityAtLeast(std::span<const Contact> contacts, const object::WrenchFrame& frame,
                     double friction_angle, double threshold) {
-  if (!std::isfinite(threshold)) throw std::invalid_argument("quality: threshold not finite");
+  if (!std::isfinite(threshold))
+    throw std::invalid_argument("quality: the threshold must be finite");
   if (!IsForceClosure(contacts, frame, friction_angle)) return threshold <= 0;
   if (threshold <= 0) return true;
   const UnitContacts units = UnitNormalContacts(contacts, frame, friction_angle);
@@ -236,7 +238,7 @@ std::optional<QualityBounds> BoundQualityByHull(std::span<const Contact> contact
                                                 const object::WrenchFrame& frame,
                                                 double friction_angle, double relative_gap) {
   if (!(relative_gap >= kLeastRelativeGap)) {
-    throw std::invalid_argument("quality: relative gap below 1e-5");
+    throw std::invalid_argument("quality: the relative gap must be at least 1e-5");
   }
   UnitContacts units = MakeUnitContacts(contacts, frame);
   SetUnitNormalForces(units, friction_angle);

@@ -31,7 +31,7 @@ class WrenchSet {
 
   struct SupportPoint {
     double value;  ///< largest y · w over the set
-    Vector point;  ///< a w that attains it
+    Vector point;  ///< wrench w that attains the maximum
   };
   [[nodiscard]] SupportPoint Support(const Vector& twist) const;
 

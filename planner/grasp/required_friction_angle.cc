@@ -93,7 +93,7 @@ std::optional<RequiredFrictionAngle> WithBracket(std::span<const Contact> contac
                                                  const Find& find) {
   CheckGrasp(contacts, frame);
   if (!(tolerance > 0))
-    throw std::invalid_argument("required friction angle: tolerance not positive");
+    throw std::invalid_argument("required friction angle: the tolerance must be positive");
   const object::WrenchFrame own = ContactFrame(contacts, frame.dimension);
   if (!(own.radius > 0)) return std::nullopt;
   const UnitContacts units = MakeUnitContacts(contacts, own);

@@ -107,7 +107,7 @@ UnitContacts MakeRimmedContacts(std::span<const Contact> points, const object::W
                                 double friction_angle) {
   UnitContacts units = MakeUnitContacts(points, frame);
   if (HasTorsion(units)) {
-    throw std::invalid_argument("force-closure subsets: pair lines decide hard points only");
+    throw std::invalid_argument("force-closure subsets: pair lines require hard contacts");
   }
   SetUnitForces(units, friction_angle);
   return units;
@@ -298,7 +298,8 @@ std::vector<std::array<int, 4>> ForceClosureSubsets(std::span<const Contact> poi
                                                     const Deadline& deadline, const Tell& tell) {
   CheckGrasp(points, frame);
   CheckFrictionAngle(friction_angle);
-  if (frame.dimension != 3) throw std::invalid_argument("force-closure subsets: not in space");
+  if (frame.dimension != 3)
+    throw std::invalid_argument("force-closure subsets: the frame must have 3 dimensions");
   const object::WrenchFrame own = ContactFrame(points, frame.dimension);
   if (counts != nullptr) *counts = {};
   if (!(own.radius > 0)) return {};

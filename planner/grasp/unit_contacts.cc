@@ -25,31 +25,32 @@ namespace {
 }
 
 void CheckContact(const Contact& contact, int dimension) {
-  if (!contact.p.allFinite() || !contact.n.allFinite()) Reject("a contact is not finite");
-  if (std::abs(contact.n.squaredNorm() - 1) > 2 * kUnitTolerance) Reject("a normal is not unit");
+  if (!contact.p.allFinite() || !contact.n.allFinite()) Reject("contacts must be finite");
+  if (std::abs(contact.n.squaredNorm() - 1) > 2 * kUnitTolerance)
+    Reject("normals must have unit length");
   if (dimension == 2 && (contact.p.z() != 0 || contact.n.z() != 0)) {
-    Reject("a planar contact has z other than 0");
+    Reject("planar contacts must have z = 0");
   }
   if (!(contact.torsion >= 0) || !std::isfinite(contact.torsion)) {
-    Reject("a torsion is negative or not finite");
+    Reject("torsions must be finite and at least 0");
   }
-  if (dimension == 2 && contact.torsion != 0) Reject("a planar contact has torsion");
+  if (dimension == 2 && contact.torsion != 0) Reject("planar contacts must have no torsion");
 }
 
 }  // namespace
 
 void CheckGrasp(std::span<const Contact> contacts, const object::WrenchFrame& frame) {
-  if (contacts.empty()) Reject("no contact");
-  if (frame.dimension != 2 && frame.dimension != 3) Reject("the dimension is neither 2 nor 3");
+  if (contacts.empty()) Reject("expected at least one contact");
+  if (frame.dimension != 2 && frame.dimension != 3) Reject("the dimension must be 2 or 3");
   if (!(frame.radius > 0) || !std::isfinite(frame.radius) || !frame.origin.allFinite()) {
-    Reject("the frame is not finite or its radius not positive");
+    Reject("the frame must be finite and its radius positive");
   }
   for (const Contact& contact : contacts) CheckContact(contact, frame.dimension);
 }
 
 void CheckFrictionAngle(double friction_angle) {
   if (!(friction_angle > 0) || !(friction_angle < std::numbers::pi / 2)) {
-    Reject("the friction half-angle is not in (0, pi/2)");
+    Reject("the friction angle must be in (0, pi/2)");
   }
 }
 

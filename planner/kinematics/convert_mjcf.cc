@@ -57,12 +57,12 @@ constexpr Outcome kOutcomes[] = {
     {"position", "dampratio", kToActuators},
     {"position", "inheritrange", kToActuators},
     {"joint", "actuatorfrcrange", kToActuators},
-    {"joint", "actuatorfrclimited", "left out: a range of forces limits"},
+    {"joint", "actuatorfrclimited", "left out: the force range limits it"},
     {"body", "gravcomp", "left out: gravity acts on the links"},
-    {"mesh", "content_type", "left out: the file's ending says it"},
-    {"mesh", "maxhullvert", "left out: hulls have all their vertices"},
-    {"option", "ls_iterations", "left out: a setting of the newer solver"},
-    {"option", "ls_tolerance", "left out: a setting of the newer solver"},
+    {"mesh", "content_type", "left out: implied by the file extension"},
+    {"mesh", "maxhullvert", "left out: hulls keep all vertices"},
+    {"option", "ls_iterations", "left out: setting of a newer solver"},
+    {"option", "ls_tolerance", "left out: setting of a newer solver"},
     {"flag", "eulerdamp", "left out: damping is integrated implicitly"},
 };
 
@@ -70,7 +70,7 @@ std::string OutcomeOf(const std::string& element, const std::string& attribute) 
   for (const Outcome& known : kOutcomes) {
     if (element == known.element && attribute == known.attribute) return known.outcome;
   }
-  return "left out: unknown here";
+  return "left out: not supported";
 }
 
 class MjcfConverter {
@@ -203,7 +203,7 @@ bool MjcfConverter::HasOpenLimits() const {
 
 void MjcfConverter::AddAutolimits() {
   XmlElement compiler{"compiler", {{"autolimits", "true"}}, {}, text_.root.file, text_.root.line};
-  Record(compiler, "autolimits", "added, as newer versions take it for true");
+  Record(compiler, "autolimits", "added, because newer versions default to true");
   text_.root.children.insert(text_.root.children.begin(), std::move(compiler));
 }
 
@@ -280,7 +280,7 @@ void MjcfConverter::InheritRange(XmlElement& actuator, const std::string& defaul
                                          : EffectiveNumbers(*joint->element, joint->default_class,
                                                             {"joint"}, "range");
   if (range.size() != 2 || actuator.Find("ctrlrange") != nullptr) {
-    Record(actuator, "inheritrange", "left out: there is no joint's range to inherit");
+    Record(actuator, "inheritrange", "left out: the actuator has no joint range to inherit");
     return;
   }
   const std::string* type = Effective(*joint->element, joint->default_class, {"joint"}, "type");
@@ -307,7 +307,7 @@ void MjcfConverter::ConvertServo(XmlElement& actuator, const std::string& defaul
   const double stiffness = number("kp").value_or(1);
   if (damping) Record(actuator, "kv", "to biasprm of a general actuator");
   if (ratio) {
-    Record(actuator, "dampratio", "to biasprm: a damping from the inertia that it moves");
+    Record(actuator, "dampratio", "to biasprm: damping from the inertia of the joint");
     text_.damping_ratios.push_back({actuators_, *ratio});
   }
   if (time) Record(actuator, "timeconst", "to dynprm of a filter");
@@ -373,17 +373,17 @@ void MjcfConverter::Clean(XmlElement& element, const SchemaElement& schema) {
     if (known == nullptr && is_body && child.name != "plugin") {
       throw InputError(
           child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
-          "> is not known to MuJoCo " + mj_versionString() +
+          "> is not supported by MuJoCo " + mj_versionString() +
           " and is part of the hand; help: expand it (mj_saveLastXML of a newer version "
           "writes the expanded model)");
     }
     if (element.name == "equality" && (known == nullptr || of_sites)) {
       throw InputError(child.file + ": line " + std::to_string(child.line) + ": <" + child.name +
-                       (of_sites ? "> between sites" : ">") + " is not known to MuJoCo " +
+                       (of_sites ? "> between sites" : ">") + " is not supported by MuJoCo " +
                        mj_versionString() + ", and joints would be unconstrained without it");
     }
     if (known == nullptr) {
-      Record(child, "", "left out: unknown here");
+      Record(child, "", "left out: not supported");
       if (element.name == "actuator") lost_actuators_ = true;
       continue;
     }
@@ -400,7 +400,7 @@ void MjcfConverter::DropControls() {
     for (XmlElement& key : section.children) {
       for (const char* attribute : {"ctrl", "act"}) {
         if (key.Find(attribute) == nullptr) continue;
-        Record(key, attribute, "left out: actuators are left out");
+        Record(key, attribute, "left out: the conversion omits actuators");
         key.Remove(attribute);
       }
     }

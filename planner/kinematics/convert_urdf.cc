@@ -134,7 +134,7 @@ bool UrdfConverter::ConvertShape(const XmlElement& link, XmlElement& shape) {
           throw InputError(mesh.file + ": line " + std::to_string(mesh.line) + ": mesh " + *name +
                            ": " + problem);
         }
-        Record(mesh, link, "filename", "left out, a look: " + problem);
+        Record(mesh, link, "filename", "left out, visual only: " + problem);
         return false;
       }
       const std::string* scale = mesh.Find("scale");
@@ -211,7 +211,7 @@ void DiscardVisuals(const std::string& why, ModelText& text) {
     }
   }
   text.conversions.push_back(
-      {text.root.file, text.root.line, "visual", "", "", "left out, all looks: " + why});
+      {text.root.file, text.root.line, "visual", "", "", "left out, all visuals: " + why});
 }
 
 }  // namespace regrasp::kinematics

@@ -289,8 +289,7 @@ std::vector<std::string> ActuationWarnings(const HandModel& hand, const Compiled
                        " no actuator: plans are not simulated");
   }
   if (!unlimited.empty()) {
-    warnings.push_back("the largest torque of " + ListOf(unlimited) +
-                       " is unknown and taken as unlimited");
+    warnings.push_back("force limit of " + ListOf(unlimited) + " unknown, treated as unlimited");
   }
   return warnings;
 }

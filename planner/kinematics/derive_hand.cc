@@ -55,7 +55,7 @@ class HandDeriver {
     from_world_ = PoseAt(rest_->xpos, rest_->xmat, palm_).inverse();
     for (TipBody& tip : tips_) AddTip(tip);
     if (!not_round_.empty()) {
-      Note("tips that are not very round, and how far inside them their balls end: " + not_round_);
+      Note("fingertips that are not spherical, with the depth of the sphere inside: " + not_round_);
     }
     NameFingers();
     description.up = Up();
@@ -148,7 +148,7 @@ void HandDeriver::FindTips() {
   std::erase_if(tips_, [&](const TipBody& tip) {
     for (const int joint : tip.joints) {
       if (!taken.contains(joint)) continue;
-      Note("body " + BodyName(model_, tip.body) + " is not a fingertip here: it shares joint " +
+      Note("body " + BodyName(model_, tip.body) + " is not used as a fingertip: it shares joint " +
            JointName(model_, joint) + " with a finger");
       return true;
     }
@@ -187,7 +187,7 @@ int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
   if (std::ranges::any_of(ends, [](const End& end) { return !end.is_marker; })) {
     std::erase_if(ends, [](const End& end) { return end.is_marker; });
   }
-  if (ends.empty()) Fail("body " + BodyName(model_, link) + " has no geom with a convex shape");
+  if (ends.empty()) Fail("body " + BodyName(model_, link) + ": convex collision geom not found");
   const double farthest = std::ranges::max_element(ends, {}, &End::reach)->reach;
   std::erase_if(ends, [&](const End& end) { return end.reach < farthest - kEndsAlike; });
   const bool has_round = std::ranges::any_of(ends, [](const End& end) { return end.radius > 0; });
@@ -227,7 +227,7 @@ void HandDeriver::AddTip(TipBody& tip) {
   derived_.description.tips.push_back({name, name, centre, rounded(fitted.ball.radius)});
   if (fitted.ball.radius < kMarkerRadius) {
     Note("the fingertip sphere of body " + name + " has a radius of " +
-         FormatShort(1e3 * fitted.ball.radius) + " mm: doubtful");
+         FormatShort(1e3 * fitted.ball.radius) + " mm: implausible");
   }
 }
 
@@ -237,7 +237,7 @@ FittedBall HandDeriver::Fit(const std::string& name, const ConvexShape& shape,
   try {
     fitted = FitTip(shape, directions);
   } catch (const std::runtime_error&) {
-    Fail("no sphere fits into the end of body " + name + ", which is flat");
+    Fail("body " + name + ": no sphere fits into its end, which is flat");
   }
   const double gap = std::max(fitted.short_of_far, fitted.short_of_pad);
   if (gap > kDoubtfulGap) {
@@ -363,7 +363,8 @@ void HandDeriver::NoteUnchecked() {
   for (const auto& [link, any] : collides) {
     if (!any) names += (names.empty() ? "" : ", ") + BodyName(model_, link);
   }
-  if (!names.empty()) Note("links without a geom that collides, which no check includes: " + names);
+  if (!names.empty())
+    Note("links without a colliding geom, excluded from collision checks: " + names);
 }
 
 }  // namespace

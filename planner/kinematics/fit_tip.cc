@@ -185,7 +185,7 @@ Vector4d Maximise(const Vector4d& objective, const std::vector<Facet>& facets) {
   const bool is_bounded = program.unbalanced() < kUnbalanced;
   program.StartOptimality();
   if (!is_bounded || program.Run(price(true), limits) != lp::End::kNoColumn) {
-    throw std::runtime_error("no ball fits into the tip");
+    throw std::runtime_error("no sphere fits into the fingertip");
   }
   return program.dual();
 }
@@ -221,7 +221,7 @@ FittedBall FitTip(const ConvexShape& shape, const TipDirections& directions) {
   // The optima are a convex set, so the midpoint of two optima is an optimum.
   const Vector4d best =
       (Maximise(objective + sideways, facets) + Maximise(objective - sideways, facets)) / 2;
-  if (best[3] < kFlat) throw std::runtime_error("the tip is flat");
+  if (best[3] < kFlat) throw std::runtime_error("the fingertip is flat");
   fitted.ball = {around.centre + around.radius * best.head<3>(), around.radius * best[3]};
   const auto short_of = [&](const Vector3d& direction) {
     return farthest(direction) - direction.dot(fitted.ball.centre) - fitted.ball.radius;

@@ -107,7 +107,7 @@ void HandBuilder::AddFinger(int index) {
   std::vector<int> bodies;
   for (int body = tip_body; body != palm_; body = model_.body_parentid[body]) {
     if (body == kWorldBody) {
-      Fail(where, "body " + tip.body + " is not below the palm " + description_.palm);
+      Fail(where, "body " + tip.body + " must be a descendant of the palm " + description_.palm);
     }
     bodies.push_back(body);
   }
@@ -124,7 +124,9 @@ void HandBuilder::AddFinger(int index) {
     AddJoints(body, where, last, finger);
     places_.try_emplace(body, Place{index, static_cast<int>(finger.joints.size())});
   }
-  if (finger.joints.empty()) Fail(where, "no joint between the palm and body " + tip.body);
+  if (finger.joints.empty())
+    Fail(where,
+         "expected at least one joint between the palm and body " + tip.body + ", found none");
   if (finger.joints.size() > kMostJoints) {
     Fail(where, "too many joints, expected at most " + std::to_string(kMostJoints) + ", found " +
                     std::to_string(finger.joints.size()));
@@ -155,7 +157,7 @@ void HandBuilder::AddJoints(int body, const std::string& where, Vector3d& last, 
       Fail(where, "joint " + JointName(model_, id) + " must be a revolute joint");
     }
     if (model_.jnt_limited[id] == 0)
-      Fail(where, "joint " + JointName(model_, id) + " has no limits");
+      Fail(where, "joint " + JointName(model_, id) + ": limits not found");
     const Vector3d anchor = from_world_ * VectorAt(rest_->xanchor, id);
     Joint joint;
     joint.name = JointName(model_, id);
@@ -206,7 +208,7 @@ void HandBuilder::ExpectCoupledJoints() const {
     if (!of_finger) Fail(where, "expected a joint of a finger, found \"" + name + "\"");
     for (std::size_t j = 0; j < i; ++j) {
       if (description_.couplings[j].joint == name)
-        Fail(where, "joint " + name + " is coupled twice");
+        Fail(where, "joint " + name + " must be coupled once, found twice");
     }
   }
 }
@@ -222,7 +224,8 @@ void HandBuilder::SetLimits(const std::string& where, Finger& finger) const {
     double& upper = finger.upper[joint.drive];
     lower = std::max(lower, std::min(a, b));
     upper = std::min(upper, std::max(a, b));
-    if (!(lower < upper)) Fail(where, "the limits of joint " + joint.name + " are empty");
+    if (!(lower < upper))
+      Fail(where, "joint " + joint.name + ": the lower limit must be less than the upper limit");
   }
 }
 

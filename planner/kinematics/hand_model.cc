@@ -62,10 +62,11 @@ HandDescription::Coupling ParseCoupling(const JsonReader& json) {
 void ExpectDifferent(const std::vector<HandDescription::Tip>& tips, const JsonReader& json) {
   for (std::size_t i = 0; i < tips.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (tips[i].name == tips[j].name) json.Fail("two fingers have the name " + tips[i].name);
+      if (tips[i].name == tips[j].name)
+        json.Fail("names of fingers must be unique, found " + tips[i].name + " twice");
       if (tips[i].body == tips[j].body) {
-        json.Fail("fingers " + tips[j].name + " and " + tips[i].name + " have the same tip, " +
-                  tips[i].body);
+        json.Fail("fingers " + tips[j].name + " and " + tips[i].name +
+                  " must have different fingertips, found " + tips[i].body + " twice");
       }
     }
   }

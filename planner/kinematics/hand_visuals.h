@@ -18,9 +18,9 @@ struct LinkVisual {
     Eigen::Vector3d from, to;
     double radius;
   };
-  FingerIndex finger;       ///< invalid: the palm
-  int after = 0;            ///< number of joints of the finger that move it
-  bool above_palm = false;  ///< whether it is above the palm, like an arm, and does not move
+  FingerIndex finger;               ///< invalid: the palm
+  int after = 0;                    ///< number of joints of the finger that move it
+  bool above_palm = false;          ///< whether the geom is above the palm, like an arm
   std::array<float, 3> color = {};  ///< red, green, blue in [0, 1]
   std::vector<Capsule> capsules;
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside

@@ -37,7 +37,7 @@ std::string DirectionText(const Eigen::Vector3d& direction) {
 std::string Millimetres(double metres) { return FormatFixed(1e3 * metres, 1); }
 
 std::string FingerTable(const InspectedHand& inspected) {
-  std::vector<TextRow> rows = {{"finger", "joints", "reach mm", "ball mm", "centre mm", "body"}};
+  std::vector<TextRow> rows = {{"finger", "joints", "reach mm", "sphere mm", "centre mm", "body"}};
   for (std::size_t i = 0; i < inspected.hand.fingers.size(); ++i) {
     const Finger& finger = inspected.hand.fingers[i];
     const HandDescription::Tip& tip = inspected.description.tips[i];

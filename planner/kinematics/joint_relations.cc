@@ -18,7 +18,7 @@ namespace {
 
 /// Linear equation of joint angles: Σ coefficient · angle = constant, radians.
 struct JointEquation {
-  std::map<int, double> coefficients;  ///< by joint of the model
+  std::map<int, double> coefficients;  ///< coefficients, by joint of the model
   double constant = 0;
   std::string source;
 };
@@ -301,8 +301,7 @@ void RelationReader::AddRelation(const JointEquation& equation, int leader, bool
   }
   if (std::ranges::none_of(joints, [&](int id) { return IsOfFinger(id); })) return;
   if (joints.size() == 1) {
-    Fail(equation.source + ": holds " + Names(joints) +
-         " at an angle, expected joints of fingers that move");
+    Fail(equation.source + ": fixes " + Names(joints) + ", expected joints of fingers that move");
   }
   if (joints.size() > 2) {
     Fail(equation.source + ": couples " + Names(joints) + ", expected two joints");

@@ -365,7 +365,7 @@ class VisualDropper {
                        ": " + missing->second);
     }
     text_.conversions.push_back(
-        {geom.file, geom.line, "geom", *mesh, "mesh", "left out, a look: " + missing->second});
+        {geom.file, geom.line, "geom", *mesh, "mesh", "left out, visual only: " + missing->second});
     return true;
   }
 

@@ -57,7 +57,7 @@ SchemaElement Parse(const std::string& text) {
       element.recursive = type == "(R)";
       open.push_back(&element);
     }
-    if (open.empty()) throw std::logic_error("MuJoCo prints its schema in another way");
+    if (open.empty()) throw std::logic_error("the schema of MuJoCo has another format");
     for (std::string attribute; words >> attribute;) open.back()->attributes.insert(attribute);
   }
   return root;
@@ -147,9 +147,9 @@ std::string InChild(const std::function<std::string()>& task) {
     case object::ChildEnd::kThrew:
       throw std::runtime_error(OneLine(result.bytes));
     case object::ChildEnd::kTookTooLong:
-      throw std::runtime_error("it takes longer than two minutes to read the model");
+      throw std::runtime_error("reading the model takes longer than 2 minutes");
     case object::ChildEnd::kCrashed:
-      throw std::runtime_error("it crashes on the model, or needs more than 4 GiB");
+      throw std::runtime_error("reading the model crashes or requires more than 4 GiB");
   }
   throw std::logic_error("CompileModel: a child's end");
 }

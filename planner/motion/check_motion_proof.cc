@@ -349,11 +349,11 @@ std::string TorqueFault(const std::vector<GivenContact>& contacts, const MotionS
   const std::vector<double>& end = piece.end_torques;
   if (start.empty() && end.empty()) return "";
   if (start.size() != contacts.size() || end.size() != contacts.size())
-    return "not one torque a contact";
+    return "expected one torque per contact";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!std::isfinite(start[i]) || !std::isfinite(end[i])) return "a torque is not finite";
+    if (!std::isfinite(start[i]) || !std::isfinite(end[i])) return "torques must be finite";
     if (contacts[i].torsion == 0 && (start[i] != 0 || end[i] != 0)) {
-      return "contact " + std::to_string(i) + " has a torque, and is a hard point or turns";
+      return "contact " + std::to_string(i) + " is a hard point or rotates, expected torque 0";
     }
   }
   return "";
@@ -362,9 +362,9 @@ std::string TorqueFault(const std::vector<GivenContact>& contacts, const MotionS
 /// Return the reason why a piece is invalid without evaluation of its numbers.
 std::string PieceFault(const std::vector<GivenContact>& contacts, const MotionSegment& piece) {
   if (piece.start.size() != contacts.size() || piece.end.size() != contacts.size()) {
-    return "not one force a contact";
+    return "expected one force per contact";
   }
-  if (!AllFinite(piece.start) || !AllFinite(piece.end)) return "a force is not finite";
+  if (!AllFinite(piece.start) || !AllFinite(piece.end)) return "forces must be finite";
   return TorqueFault(contacts, piece);
 }
 
@@ -390,7 +390,7 @@ ProofVerdict CheckPiece(const std::vector<GivenContact>& given, int dimension, c
                         const MotionSegment& piece) {
   const CheckedContacts<Number> moving = ContactsOn<Number>(given, piece);
   const std::optional<Support<Number>> support = FindSupport(moving, dimension);
-  if (!support) return Nothing("the contacts may come to be on one line");
+  if (!support) return Nothing("the contacts may become collinear");
   const std::vector<Applied<Number>> applied = AppliedOn<Number>(piece, dimension);
   const Correction<Number> correction = LargestCorrection(moving, applied, *support);
   for (std::size_t i = 0; i < applied.size(); ++i) {
@@ -463,13 +463,14 @@ std::vector<GivenContact> GivenOn(std::span<const grasp::Contact> from,
 ProofVerdict CheckSegmentProof(std::span<const grasp::Contact> from,
                                std::span<const grasp::Contact> to, int dimension, double mu,
                                const MotionSegment& piece) {
-  if (from.size() != to.size()) return Nothing("not as many contacts after as before");
+  if (from.size() != to.size())
+    return Nothing("expected as many contacts after the motion as before");
   if (!(piece.from >= 0 && piece.to > piece.from && piece.to <= 1)) {
-    return Nothing("a piece is not a part of the way");
+    return Nothing("a piece must be part of the path");
   }
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (from[i].n != to[i].n && TurnsTooFar(from[i], to[i])) {
-      return Nothing("the normal of contact " + std::to_string(i) + " turns by a half-turn");
+      return Nothing("the normal of contact " + std::to_string(i) + " rotates by 180°");
     }
   }
   const std::vector<GivenContact> given = GivenOn(from, to, piece);
@@ -482,12 +483,12 @@ ProofVerdict CheckMotionProof(std::span<const grasp::Contact> from,
                               std::span<const MotionSegment> pieces) {
   double reached = 0;
   for (const MotionSegment& piece : pieces) {
-    if (piece.from != reached) return Nothing("the pieces do not follow each other");
+    if (piece.from != reached) return Nothing("the pieces must be consecutive");
     ProofVerdict verdict = CheckSegmentProof(from, to, dimension, mu, piece);
     if (!verdict.proves()) return verdict;
     reached = piece.to;
   }
-  if (reached != 1) return Nothing("the pieces do not cover the whole way");
+  if (reached != 1) return Nothing("the pieces must cover the whole path");
   return {Kind::kForceClosure, ""};
 }
 

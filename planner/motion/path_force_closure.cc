@@ -160,7 +160,7 @@ class PathAngle {
   struct Interval {
     double from;
     double to;
-    double required;  ///< at the middle; 0 if it does not exceed the known bound
+    double required;  ///< required angle at the middle; 0 if within the known bound
 
     [[nodiscard]] double length() const { return to - from; }
     bool operator<(const Interval& other) const {

@@ -25,7 +25,7 @@ inline constexpr int kMostUndecided = 1000;
 struct PathForceClosure {
   /// kYes: proved throughout. kNo: an instant is not force closure. kTooClose: neither.
   grasp::Decision decision = grasp::Decision::kTooClose;
-  /// After kNo the instant t that decided; after kTooClose the first undecided instant.
+  /// Instant t of a negative decision (kNo), or the first undecided instant (kTooClose).
   double at = 0;
   /// Number of intervals no longer than kShortestInterval without a proof; their ends and centre
   /// are force closure.

@@ -61,7 +61,7 @@ std::optional<double> CheckCollada(std::string_view bytes) {
     if (tag.name() != "unit") return;
     const double metres = UnitOfTag(tag);
     if (unit && *unit != metres) {
-      throw InputError("unit: several, expected one, found " + FormatDouble(*unit) + " and " +
+      throw InputError("unit: expected one, found " + FormatDouble(*unit) + " and " +
                        FormatDouble(metres) + " m");
     }
     unit = metres;
@@ -119,8 +119,10 @@ class OneFile : public Assimp::IOSystem {
 /// @throws InputError  if bones or morph targets would move its vertices, or an index is out of
 ///     range.
 void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placement, PolygonSoup& soup) {
-  if (mesh.mNumBones > 0) throw InputError("mesh with bones (skin): not supported");
-  if (mesh.mNumAnimMeshes > 0) throw InputError("mesh with morph targets: not supported");
+  if (mesh.mNumBones > 0)
+    throw InputError("mesh with bones (skin): not supported, expected a rigid mesh");
+  if (mesh.mNumAnimMeshes > 0)
+    throw InputError("mesh with morph targets: not supported, expected a rigid mesh");
   const std::size_t first = soup.vertices.size();
   for (unsigned int v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D p = placement * mesh.mVertices[v];
@@ -240,7 +242,7 @@ namespace {
 
 /// Convert a message of assimp to one printable line.
 std::string Cleaned(std::string message) {
-  if (message.empty()) return "assimp cannot read it";
+  if (message.empty()) return "cannot be read by assimp";
   for (char& c : message) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
@@ -259,7 +261,7 @@ PolygonSoup ReadInChild(std::string_view bytes, SurfaceFormat format) {
     case SurfaceFormat::kFbx:
       return ReadAssimpScene(bytes, "object.fbx");
     default:
-      throw InputError("format: not read in a child process");
+      throw InputError("format: not supported in a child process");
   }
 }
 
@@ -278,9 +280,9 @@ PolygonSoup ReadWithAssimp(std::string_view bytes, const std::filesystem::path& 
     case ChildEnd::kThrew:
       throw InputError(name + ": " + Cleaned(result.bytes));
     case ChildEnd::kTookTooLong:
-      throw InputError(name + ": assimp took longer than allowed to read it");
+      throw InputError(name + ": time limit of assimp exceeded");
     case ChildEnd::kCrashed:
-      throw InputError(name + ": assimp crashed or ran out of memory reading it");
+      throw InputError(name + ": assimp crashed or exceeded its memory limit");
   }
   auto soup = SoupFromBytes(result.bytes);
   if (!soup) throw InputError(name + ": read incompletely by assimp");

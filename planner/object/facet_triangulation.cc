@@ -154,15 +154,16 @@ namespace {
 void CheckCut(const PolygonCut& cut, double diameter, const std::string& facet) {
   if (cut.off_plane > kBentTolerance * diameter) {
     const auto [off, most] = FormatWithLimit(cut.off_plane / diameter, kBentTolerance, 4);
-    throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner lies " +
+    throw MeshError(MeshDefect::kNotPlanar, facet + ": not planar: a corner is " +
                                                 FormatShort(cut.off_plane) + " off its plane, " +
                                                 off + " of the object's diameter (at most " + most +
                                                 ")");
   }
   if (!cut.defect) return;
-  throw MeshError(*cut.defect, facet + (*cut.defect == MeshDefect::kDegenerateFacet
-                                            ? ": degenerate: it has no area"
-                                            : ": self-intersecting: its outline meets itself"));
+  throw MeshError(*cut.defect,
+                  facet + (*cut.defect == MeshDefect::kDegenerateFacet
+                               ? ": degenerate: its area is 0"
+                               : ": self-intersecting: its outline intersects itself"));
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ double GltfValue::Number() const {
 }
 
 std::string GltfValue::Text() const {
-  if (!json_->is_string()) Fail("expected a text, found " + std::string(json_->type_name()));
+  if (!json_->is_string()) Fail("expected a string, found " + std::string(json_->type_name()));
   return json_->get<std::string>();
 }
 
@@ -189,7 +189,7 @@ void GltfDocument::ReadContainer(std::string_view bytes) {
     json_ = ParseJson(bytes, "document");
     return;
   }
-  if (bytes.size() < kGlbHeader) throw InputError("header: the file ends inside it");
+  if (bytes.size() < kGlbHeader) throw InputError("header: truncated");
   const auto version = TakeNumber<std::uint32_t>(bytes.data() + 4);
   const auto length = TakeNumber<std::uint32_t>(bytes.data() + 8);
   if (version != 2)
@@ -203,7 +203,7 @@ void GltfDocument::ReadContainer(std::string_view bytes) {
     const std::size_t left = bytes.size() - at;
     const std::size_t size = left < kChunkHeader ? left : TakeNumber<std::uint32_t>(&bytes[at]);
     if (left < kChunkHeader || size > left - kChunkHeader) {
-      throw InputError("truncated inside a chunk");
+      throw InputError("chunk: truncated");
     }
     const auto type = TakeNumber<std::uint32_t>(&bytes[at + 4]);
     const std::string_view chunk = bytes.substr(at + kChunkHeader, size);
@@ -220,7 +220,7 @@ std::string_view GltfDocument::Buffer(long long index) {
   const auto uri = buffer.Find("uri");
   if (!uri) {
     if (index == 0 && !binary_.empty()) return binary_;
-    buffer.Fail("has no data");
+    buffer.Fail("data not found");
   }
   const auto [place, is_new] = decoded_.try_emplace(index);
   if (!is_new) return place->second;
@@ -232,7 +232,7 @@ std::string_view GltfDocument::Buffer(long long index) {
                      ": not supported; help: convert the object to .glb or .ply");
   }
   auto bytes = DecodeBase64(std::string_view(text).substr(comma + kEncoding.size()));
-  if (!bytes) uri->Fail("is not base64");
+  if (!bytes) uri->Fail("must be base64");
   return place->second = *std::move(bytes);
 }
 
@@ -258,7 +258,9 @@ std::vector<double> GltfDocument::ReadView(const GltfValue& user, const Layout& 
       static_cast<std::size_t>(view.CountOr("byteStride", static_cast<long long>(row)));
   const auto first = static_cast<std::size_t>(user.CountOr("byteOffset", 0));
   const auto count = static_cast<std::size_t>(layout.count);
-  if (stride < row) view.Fail("byteStride: less than an element");
+  if (stride < row)
+    view.Fail("byteStride: must be at least " + std::to_string(row) +
+              ", the size of an element, found " + std::to_string(stride));
   const bool fits = count == 0 || (first <= size && row <= size - first &&
                                    (size - first - row) / stride >= count - 1);
   if (!fits) {
@@ -302,7 +304,7 @@ void GltfDocument::ApplySparse(const GltfValue& sparse, const Layout& layout,
 }
 
 std::vector<double> GltfDocument::ReadAccessor(const GltfValue& accessor, const Layout& layout) {
-  if (layout.count > kMostElements) accessor.Fail("more than 3000000 elements");
+  if (layout.count > kMostElements) accessor.Fail("too large, limit 3000000 elements");
   std::vector<double> values;
   if (accessor.Find("bufferView")) {
     values = ReadView(accessor, layout);

@@ -109,7 +109,8 @@ ChildEnd EndOf(int status) {
 ChildResult RunInLimitedChild(const std::function<std::string()>& task, const ChildLimits& limits) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw EnvironmentError(std::string("no pipe to a child process: ") + std::strerror(errno));
+    throw EnvironmentError(std::string("pipe to a child process cannot be created: ") +
+                           std::strerror(errno));
   }
   const auto deadline = std::chrono::steady_clock::now() + limits.wall;
   const pid_t child = fork();
@@ -117,7 +118,7 @@ ChildResult RunInLimitedChild(const std::function<std::string()>& task, const Ch
     const std::string why = std::strerror(errno);
     close(ends[0]);
     close(ends[1]);
-    throw EnvironmentError("no child process: " + why);
+    throw EnvironmentError("child process cannot be started: " + why);
   }
   if (child == 0) RunChild(task, limits, ends[1]);
   close(ends[1]);

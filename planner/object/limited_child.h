@@ -24,7 +24,7 @@ struct ChildLimits {
   std::size_t memory_bytes;
   std::chrono::seconds processor;
   std::chrono::milliseconds wall;
-  bool opens_files = false;  ///< if false, it can use only files that are already open
+  bool opens_files = false;  ///< whether the child can open files
 };
 
 /// Run `task` in a forked child process with limits and return its bytes.

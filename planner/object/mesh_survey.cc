@@ -222,9 +222,9 @@ std::string SurveyText(const MeshSurvey& survey) {
   add(survey.spoilt_facets, "facet with invalid vertices", "facets with invalid vertices");
   add(survey.degenerate_facets, "facet without area", "facets without area");
   add(survey.duplicate_facets, "duplicate facet", "duplicate facets");
-  add(survey.opposite_facets, "facet on the back of another", "facets on the back of others");
-  add(survey.twisted_facets, "facet whose outline meets itself",
-      "facets whose outlines meet themselves");
+  add(survey.opposite_facets, "facet on the back of another", "facets on the back of other facets");
+  add(survey.twisted_facets, "facet whose outline intersects itself",
+      "facets whose outlines intersect themselves");
   add(survey.bent_facets, "facet out of plane", "facets out of plane",
       " (by up to " + FormatShort(survey.largest_bend) + ", " +
           FormatShort(survey.largest_bend / survey.diameter) + " of the diameter)");

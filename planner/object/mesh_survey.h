@@ -15,10 +15,10 @@ namespace regrasp::object {
 
 /// Connected part of a surface without open edges, counted by itself.
 struct ClosedShell {
-  int first_facet = 0;  ///< its first polygon, in file order
+  int first_facet = 0;  ///< number of its first polygon, in file order
   int facets = 0;
   double volume = 0;      ///< volume; negative if it is oriented inward
-  bool overlaps = false;  ///< its polygons intersect those of another shell
+  bool overlaps = false;  ///< whether its polygons intersect those of another shell
   bool inside = false;    ///< it is inside another shell and does not intersect it
 };
 

@@ -234,15 +234,16 @@ inline constexpr double kUsualPatch = 0.02;
 
 /// Options, callbacks and deadline for reading an object.
 struct Reading {
-  /// Receives the name of each stage.
+  /// Callback with the name of each stage.
   std::function<void(std::string_view)> progress = [](std::string_view) {};
   Deadline deadline;
   /// If set, points with a rough patch take no fingers.
   std::optional<FeltPatch> patch = std::nullopt;
   bool allow_filled = false;   ///< whether filled surfaces of a repair take fingers
   bool counts_defects = true;  ///< whether a rejection counts all defects (mesh_survey.h)
-  std::optional<Shells> shells = std::nullopt;  ///< no effect on a surface that is valid without it
-  /// Receives a text on the treatment of several closed shells, if `shells` had an effect.
+  std::optional<Shells> shells =
+      std::nullopt;  ///< treatment of several shells; unused on a valid surface
+  /// Callback with a text on the treatment of several closed shells, if `shells` had an effect.
   std::function<void(const std::string&)> on_shells = [](const std::string&) {};
 
   /// Begin a stage. The deadline is checked only here: stages are not interrupted, except for

@@ -121,7 +121,7 @@ Polygon Polygon::FromRings(PolygonRings rings, const std::string& name) {
   }
   CheckRingEdges(rings, diameter, name);
   const MassProperties mass = ComputeMassProperties(rings);
-  if (!(mass.volume > 0)) throw InputError(name + ": ring 0: no area");
+  if (!(mass.volume > 0)) throw InputError(name + ": ring 0: the area must be positive");
   return Polygon(std::move(rings), diameter, mass);
 }
 
@@ -216,7 +216,7 @@ void CheckPoints(const std::vector<Vector2d>& ring, int index, const std::string
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (const double x : ring[i]) {
       if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
-      fail(i, "the coordinate " + FormatDouble(x) + " must be finite and of size at most " +
+      fail(i, "the coordinate " + FormatDouble(x) + " must be finite and of magnitude at most " +
                   FormatDouble(kMaxCoordinate));
     }
   }
@@ -229,7 +229,7 @@ void CheckPoints(const std::vector<Vector2d>& ring, int index, const std::string
     fail(*(twice + 1), "repeats vertex " + std::to_string(*twice) + " of its ring");
   }
   if (ring.size() < 3) {
-    throw InputError(name + ": " + RingName(index) + ": fewer than three different points");
+    throw InputError(name + ": " + RingName(index) + ": expected at least 3 different points");
   }
 }
 
@@ -263,7 +263,7 @@ bool MeetWrongly(const RingEdge& a, const RingEdge& b) {
 void CheckCrossings(const PolygonRings& rings, const std::string& name) {
   const std::vector<RingEdge> edges = CollectEdges(rings);
   if (edges.size() > kMaxFacets) {
-    throw InputError(name + ": " + std::to_string(edges.size()) + " edges, more than " +
+    throw InputError(name + ": " + std::to_string(edges.size()) + " edges, limit " +
                      std::to_string(kMaxFacets));
   }
   std::vector<EdgeBox> boxes;
@@ -296,13 +296,13 @@ bool IsInside(const Ring& inner, const Ring& outer) {
 void CheckNesting(const std::vector<Ring>& rings, const std::string& name) {
   for (std::size_t r = 1; r < rings.size(); ++r) {
     if (!IsInside(rings[r], rings[0])) {
-      throw InputError(name + ": " + RingName(int(r)) + ": a hole outside the outer ring");
+      throw InputError(name + ": " + RingName(int(r)) + ": hole outside the outer ring");
     }
     for (std::size_t other = 1; other < rings.size(); ++other) {
       if (other == r || !CGAL::do_overlap(rings[r].bbox(), rings[other].bbox())) continue;
       if (IsInside(rings[r], rings[other])) {
-        throw InputError(name + ": " + RingName(int(r)) + ": a hole inside " +
-                         RingName(int(other)) + ", another hole");
+        throw InputError(name + ": " + RingName(int(r)) + ": hole inside another hole, " +
+                         RingName(int(other)));
       }
     }
   }
@@ -311,7 +311,7 @@ void CheckNesting(const std::vector<Ring>& rings, const std::string& name) {
 }  // namespace
 
 void CheckAndOrientRings(PolygonRings& rings, const std::string& name) {
-  if (rings.empty()) throw InputError(name + ": empty: no ring");
+  if (rings.empty()) throw InputError(name + ": empty: expected at least one ring");
   for (int r = 0; r < std::ssize(rings); ++r) CheckPoints(rings[r], r, name);
   CheckCrossings(rings, name);
   std::vector<Ring> checked;

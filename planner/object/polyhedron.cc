@@ -170,22 +170,22 @@ bool IsSurveyed(MeshDefect defect) {
 std::string ShellsHint(MeshDefect first, const MeshSurvey& survey, std::optional<Shells> choice) {
   if (survey.shells.size() < 2) return "";
   if (first == MeshDefect::kSeveralSolids) {
-    return "; --shells union takes all of them as one body, --shells largest the largest alone";
+    return "; help: --shells union for one rigid body, --shells largest for the largest shell";
   }
   const bool overlap = std::ranges::any_of(survey.shells, &ClosedShell::overlaps);
   if (!overlap || survey.open_parts > 0) return "";
-  return choice == Shells::kUnion ? "; --shells union takes shells that do not meet; --repair "
-                                    "makes one body of those that do"
-                                  : "; --shells largest would take the largest shell alone";
+  return choice == Shells::kUnion ? "; --shells union requires shells that do not intersect; help: "
+                                    "--repair unites them"
+                                  : "; help: --shells largest keeps the largest shell";
 }
 
 /// Append the counts of all defects to the first one.
 MeshError WithSurvey(const MeshError& first, const PolygonSoup& soup, const Reading& reading) {
   try {
     if (!reading.counts_defects || !IsSurveyed(first.defect())) return first;
-    reading.Begin("counting what is wrong with " + std::to_string(soup.facets.size()) + " facets");
+    reading.Begin("counting defects of " + std::to_string(soup.facets.size()) + " facets");
     const MeshSurvey survey = SurveyMesh(soup, reading.deadline);
-    return {first.defect(), first.what() + ("; in all " + SurveyText(survey)) +
+    return {first.defect(), first.what() + ("; in total " + SurveyText(survey)) +
                                 ShellsHint(first.defect(), survey, reading.shells)};
   } catch (const TimeUp&) {
     return first;
@@ -219,7 +219,7 @@ Polyhedron Polyhedron::Check(const PolygonSoup& soup, const std::string& name,
   WeldedSoup welded = WeldVertices(soup, name);
   reading.Begin("triangulating " + facets);
   auto [mesh, topology, diameter] = MakeRepairedSurface(std::move(welded), name, reading);
-  reading.Begin("looking for intersections of " + facets);
+  reading.Begin("searching intersections of " + facets);
   CheckSelfIntersection(mesh, name, reading.deadline);
   reading.Begin("joining " + facets + " to faces");
   const SolidShells shells = OrientSolid(mesh, topology, reading.shells, name);

@@ -76,10 +76,10 @@ std::string Package3mf::RootModel() {
     if (tag.Find("TargetMode") == "External") {
       throw InputError("model in another file, \"" + tag.Text("Target") + "\": not supported");
     }
-    if (root) throw InputError("several relationships to a model, expected one");
+    if (root) throw InputError("expected one relationship to a model, found several");
     root = PartName(tag.Text("Target"));
   });
-  if (!root) throw InputError(std::string(kRelationships) + ": no relationship to a model");
+  if (!root) throw InputError(std::string(kRelationships) + ": relationship to a model not found");
   return *root;
 }
 
@@ -93,12 +93,11 @@ std::string Package3mf::Read(const std::string& part) {
     const auto found = std::ranges::find_if(entries, is_it);
     if (found == entries.end()) continue;
     if (std::ranges::count_if(entries, is_it) > 1) {
-      throw InputError(part +
-                       ": found several times in the archive, expected one file of this name");
+      throw InputError(part + ": must be once in the archive, found twice or more");
     }
     if (auto text = archive_.Read(*found, kMaxInputBytes)) return *std::move(text);
   }
-  throw InputError("the archive has no " + part);
+  throw InputError(part + ": not found in the archive");
 }
 
 using Eigen::Affine3d;
@@ -183,7 +182,7 @@ void TakeModel(const XmlTag& tag, Model& model) {
 void TakeObject(const XmlTag& tag, Model& model) {
   model.current_id = tag.Text("id");
   const auto [place, is_new] = model.objects.try_emplace(model.current_id);
-  if (!is_new) throw InputError("object " + Quoted(model.current_id) + ": its id is repeated");
+  if (!is_new) throw InputError("object " + Quoted(model.current_id) + ": the id must be unique");
   model.current = &place->second;
   if (auto type = tag.Find("type")) model.current->type = *std::move(type);
 }
@@ -282,7 +281,7 @@ class Models {
   const Model& Part(const std::string& part) {
     const auto [place, is_new] = models_.try_emplace(LowerCase(part));
     if (!is_new) return place->second;
-    if (models_.size() > kMostParts) throw InputError("more than 10000 parts");
+    if (models_.size() > kMostParts) throw InputError("too large, limit 10000 parts");
     place->second = ParseModel(package_.Read(part), part);
     if (place->second.unit != root().unit) {
       throw InputError(part + ": unit: expected " + Quoted(root().unit) + " as in " + root_ +
@@ -298,7 +297,7 @@ class Models {
 };
 
 [[noreturn]] void RefuseMore(const std::string& what, std::size_t most, const std::string& unit) {
-  throw InputError(what + ": more than " + std::to_string(most) + " " + unit);
+  throw InputError(what + ": too large, limit " + std::to_string(most) + " " + unit);
 }
 
 class Placer {
@@ -365,7 +364,8 @@ PolygonSoup Read3mf(std::string_view bytes) {
   Placer placer(models);
   for (const Placed& item : root.items) placer.Place({item.object, metres * item.transform});
   PolygonSoup soup = placer.soup();
-  if (soup.facets.empty()) throw InputError(root.part + ": build: no object of type \"model\"");
+  if (soup.facets.empty())
+    throw InputError(root.part + ": build: object of type \"model\" not found");
   soup.unit = unit.name;
   return soup;
 }

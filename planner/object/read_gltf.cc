@@ -56,7 +56,7 @@ GltfValue SceneOf(const GltfValue& root) {
   const std::vector<GltfValue> scenes = root.Items("scenes");
   if (const auto scene = root.Find("scene")) return root.Item("scenes", scene->Count());
   if (scenes.size() == 1) return scenes.front();
-  throw InputError("/scene: missing, expected the index of one of " +
+  throw InputError("/scene: not found, expected the index of one of " +
                    std::to_string(scenes.size()) + " scenes");
 }
 
@@ -132,7 +132,7 @@ class SceneReader {
       if (const auto mesh = node.Find("mesh")) AddMesh(node, mesh->Count(), placement);
       Push(node, "children", placement, stack);
     }
-    if (soup_.facets.empty()) throw InputError("its scene has no triangle");
+    if (soup_.facets.empty()) throw InputError("scene: expected at least one triangle, found none");
     soup_.unit = "metres";
     return std::move(soup_);
   }
@@ -175,7 +175,7 @@ class SceneReader {
     if (triangles.empty()) return;
     if (soup_.facets.size() + triangles.size() > kMaxFacets ||
         soup_.vertices.size() + vertices.size() > 3 * kMaxFacets) {
-      throw InputError("more than " + std::to_string(kMaxFacets) + " facets");
+      throw InputError("too large, limit " + std::to_string(kMaxFacets) + " facets");
     }
     const int first = static_cast<int>(soup_.vertices.size());
     for (const Eigen::Vector3d& vertex : vertices) soup_.vertices.push_back(placement * vertex);

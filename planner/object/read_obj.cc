@@ -43,7 +43,7 @@ Eigen::Vector3d ReadObjVertex(TextScanner& scanner, std::size_t index) {
   Eigen::Vector3d vertex;
   for (double& x : vertex) {
     const auto word = scanner.NextOnLine();
-    if (!word) scanner.Fail(what + ": fewer than three coordinates");
+    if (!word) scanner.Fail(what + ": expected three coordinates, found fewer");
     const auto value = ParseDouble(*word);
     if (!value) scanner.Fail(what + ": expected a finite number, found " + Quoted(*word));
     x = *value;

@@ -82,7 +82,7 @@ SoupFile ReadSoup(const std::filesystem::path& path, const Reading& reading) {
   const std::string bytes = ReadFile(path);
   const std::string ending = LowerCase(path.extension().string());
   if (ending == ".wkt")
-    throw InputError(path.string() + ": the object is a polygon; only surfaces can be repaired");
+    throw InputError(path.string() + ": --repair cannot be used with a polygon");
   return {path.filename().string(), Sha256(bytes), ParseSoup(path, bytes, reading.deadline)};
 }
 
@@ -90,7 +90,7 @@ ObjectFile ReadObject(const std::filesystem::path& path, const Reading& reading)
   try {
     return Read(path, reading);
   } catch (const TimeUp&) {
-    throw TimeUp(path.string() + ": time limit reached while reading it");
+    throw TimeUp(path.string() + ": time limit reached while reading");
   }
 }
 

@@ -28,7 +28,7 @@ OffHeader ReadHeader(TextScanner& scanner) {
   OffHeader header;
   const std::string kind = LowerCase(scanner.Next().value_or(""));
   if (!IsKnownKind(kind))
-    scanner.Fail("not an OFF file, expected \"off\" at its start, found " + Quoted(kind));
+    scanner.Fail("not an OFF file, expected \"off\" at the start, found " + Quoted(kind));
   header.plain = kind == "off";
   header.vertices = scanner.ReadInteger("the number of vertices");
   header.facets = scanner.ReadInteger("the number of facets");
@@ -71,7 +71,7 @@ PolygonSoup ReadOff(std::string_view text, const std::string& name) {
     soup.facets.push_back(ReadOffFacet(scanner, header, f));
   }
   if (const auto word = scanner.Next()) {
-    scanner.Fail(Quoted(*word) + " after the last of " + std::to_string(header.facets) + " facets");
+    scanner.Fail("expected the end of the file, found " + Quoted(*word));
   }
   return soup;
 }

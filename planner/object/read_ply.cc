@@ -70,13 +70,13 @@ class HeaderReader {
   Header Read() {
     if (NextLine() != "ply") Fail("not a PLY file, expected \"ply\"");
     for (;;) {
-      if (header_.body >= bytes_.size()) Fail("the file ends inside the header");
+      if (header_.body >= bytes_.size()) Fail("header: truncated");
       const std::string_view line = NextLine();
       if (line == "end_header") break;
       TextScanner words(line, name_);
       ReadStatement(words);
     }
-    if (!has_format_) Fail("no format");
+    if (!has_format_) Fail("format not found");
     return std::move(header_);
   }
 
@@ -97,10 +97,12 @@ class HeaderReader {
     if (keyword == "element") {
       const std::string name = Word(words);
       const auto count = ParseInteger(Word(words));
-      if (!count || *count < 0) Fail("element " + Quoted(name) + ": not a number of elements");
+      if (!count || *count < 0)
+        Fail("element " + Quoted(name) +
+             ": the number of elements must be an integer of at least 0");
       header_.elements.push_back({name, *count, {}});
     } else if (keyword == "property") {
-      if (header_.elements.empty()) Fail("a property before the first element");
+      if (header_.elements.empty()) Fail("a property must follow an element");
       ReadProperty(words);
     } else {
       Fail("expected a statement of a PLY header, found " + Quoted(keyword));
@@ -126,7 +128,7 @@ class HeaderReader {
     std::string type = Word(words);
     if (type == "list") {
       property.count_type = FindType(Word(words));
-      if (IsFloat(*property.count_type)) Fail("a list whose length is not an integer");
+      if (IsFloat(*property.count_type)) Fail("the length of a list must be an integer");
       type = Word(words);
     }
     property.type = FindType(type);
@@ -143,7 +145,7 @@ class HeaderReader {
 
   std::string Word(TextScanner& words) const {
     const auto word = words.Next();
-    if (!word) Fail("a word is missing");
+    if (!word) Fail("expected another word, found the end of the line");
     return std::string(*word);
   }
 
@@ -213,7 +215,7 @@ class ValueReader {
   }
 
   [[noreturn]] void FailAtEnd(const std::string& what) const {
-    throw InputError(name_ + ": the file ends inside " + what);
+    throw InputError(name_ + ": truncated inside " + what);
   }
 
   std::string_view body_;
@@ -228,7 +230,7 @@ void ReadVertex(ValueReader& values, const Element& element, long long index, Po
   const std::string what = Name(element, index);
   Eigen::Vector3d vertex = Eigen::Vector3d::Zero();
   for (const Property& property : element.properties) {
-    if (property.count_type) throw InputError(name + ": " + what + ": has a list");
+    if (property.count_type) throw InputError(name + ": " + what + ": lists not supported");
     const double value = values.Read(property.type, what);
     const std::size_t axis = std::string_view("xyz").find(property.name);
     if (property.name.size() != 1 || axis == std::string_view::npos) continue;
@@ -251,7 +253,8 @@ long long ReadCount(ValueReader& values, const Property& property, const std::st
                     const std::string& name) {
   const double count = values.Read(*property.count_type, what);
   if (count < 0 || count > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError(name + ": " + what + ": a list of length " + FormatDouble(count));
+    throw InputError(name + ": " + what + ": length of a list not supported, found " +
+                     FormatDouble(count));
   }
   return static_cast<long long>(count);
 }
@@ -340,23 +343,23 @@ bool MayBeSurface(const Element& element, bool has_facets) {
 void CheckElement(const Element& element, const std::string& name) {
   const std::string what = name + ": element " + Quoted(element.name);
   if (element.properties.empty() && element.count > 0)
-    throw InputError(what + " has no properties");
+    throw InputError(what + ": expected at least one property");
   std::set<std::string> names;
   for (const Property& property : element.properties) {
     if (!names.insert(property.name).second) {
-      throw InputError(what + ": property " + Quoted(property.name) + " is repeated");
+      throw InputError(what + ": property " + Quoted(property.name) + ": must be unique");
     }
   }
   if (element.name == "vertex" && !(Has(element, "x") && Has(element, "y") && Has(element, "z"))) {
-    throw InputError(what + ": properties x, y and z required");
+    throw InputError(what + ": requires the properties x, y and z");
   }
   if (!IsSurface(element)) return;
   const auto indices = std::ranges::find_if(element.properties, IsVertexIndices);
   if (indices == element.properties.end() || IsFloat(indices->type)) {
-    throw InputError(what + " lacks an integer list vertex_indices");
+    throw InputError(what + ": requires an integer list vertex_indices");
   }
   if (std::ranges::count_if(element.properties, IsVertexIndices) > 1) {
-    throw InputError(what + " has two lists of vertex indices");
+    throw InputError(what + ": expected one list of vertex indices, found two");
   }
 }
 
@@ -365,7 +368,7 @@ void CheckElements(const std::vector<Element>& elements, const std::string& name
   std::set<std::string> names;
   for (const Element& element : elements) {
     if (!names.insert(element.name).second) {
-      throw InputError(name + ": element " + Quoted(element.name) + " is repeated");
+      throw InputError(name + ": element " + Quoted(element.name) + ": must be unique");
     }
     CheckElement(element, name);
     if (MayBeSurface(element, has_facets)) {

@@ -115,7 +115,7 @@ void ReadPcdText(std::string_view text, const std::vector<PcdField>& fields, std
     for (std::size_t f = 0; f < fields.size(); ++f) {
       for (std::size_t k = 0; k < fields[f].count; ++k) {
         const auto word = scanner.Next();
-        if (!word) scanner.Fail("the file ends in point " + std::to_string(i));
+        if (!word) scanner.Fail("truncated inside point " + std::to_string(i));
         const auto axis = std::ranges::find(axes, f) - axes.begin();
         if (axis == 3) continue;
         if (const auto value = ParseDouble(*word)) point[axis] = *value;
@@ -173,7 +173,7 @@ PolygonSoup ReadXyz(std::string_view text, const std::string& name) {
     point.x() = *x;
     for (const int axis : {1, 2}) {
       const auto next = scanner.NextOnLine();
-      if (!next) scanner.Fail(what + ": fewer than three coordinates");
+      if (!next) scanner.Fail(what + ": expected three coordinates, found fewer");
       const auto value = ParseDouble(*next);
       if (!value) scanner.Fail(what + ": expected a finite number, found " + Quoted(*next));
       point[axis] = *value;

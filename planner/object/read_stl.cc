@@ -36,7 +36,7 @@ PolygonSoup ReadText(std::string_view text, const std::string& name) {
       scanner.SkipLine();
       continue;
     }
-    if (keyword != "facet") scanner.Fail(Quoted(*word) + ", expected a facet");
+    if (keyword != "facet") scanner.Fail("expected a facet, found " + Quoted(*word));
     const std::string facet = "facet " + std::to_string(soup.facets.size());
     scanner.Expect("normal");
     scanner.SkipLine();  // the normal is not used, and some exporters write NaN

@@ -29,9 +29,10 @@ class WktReader {
     if (several) Expect('(');
     RefuseWords();
     PolygonRings rings = ReadPolygon();
-    if (several && Peek() == ',') Fail("a MULTIPOLYGON of more than one polygon");
+    if (several && Peek() == ',') Fail("expected a MULTIPOLYGON of one polygon, found several");
     if (several) Expect(')');
-    if (Peek() != '\0' || !rest_.empty()) Fail(Quoted(rest_) + " after the polygon");
+    if (Peek() != '\0' || !rest_.empty())
+      Fail("expected the end after the polygon, found " + Quoted(rest_));
     return rings;
   }
 
@@ -62,7 +63,7 @@ class WktReader {
     where_ = ring;
     Expect(')');
     if (points.size() < 2 || points.front() != points.back()) {
-      Fail("not closed: its last point is not its first");
+      Fail("not closed: the last point must be the first");
     }
     points.pop_back();
     return points;

@@ -127,10 +127,11 @@ void CheckCavities(const TriangleMesh& mesh, const std::vector<Shell>& shells, s
   for (std::size_t s = 0; s < shells.size(); ++s) {
     if (s == outside) continue;
     if (!in_outside.Contains(shells[s])) {
-      RejectShell(mesh, shells[s], "is next to another one", name);
+      RejectShell(mesh, shells[s], "is not inside the largest shell", name);
     }
     if (orientation * shells[s].volume >= 0) {
-      RejectShell(mesh, shells[s], "is inside another one and not oriented as a cavity", name);
+      RejectShell(mesh, shells[s], "is inside the largest shell and not oriented as a cavity",
+                  name);
     }
   }
   for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -233,11 +234,11 @@ SolidShells Unite(TriangleMesh& mesh, SurfaceTopology& topology, const std::vect
     topology = ComputeTopology(mesh, name);
   }
   if (all.solids == 1 && left_out == 0) return result;
-  result.text = std::to_string(shells.size()) + " closed shells are one body of " +
+  result.text = std::to_string(shells.size()) + " closed shells form one body of " +
                 std::to_string(all.solids) + (all.solids == 1 ? " solid" : " solids");
   if (left_out > 0) {
-    result.text += "; " + std::to_string(left_out) + (left_out == 1 ? " lies" : " lie") +
-                   " in its material and bound" + (left_out == 1 ? "s" : "") + " nothing";
+    result.text += "; " + std::to_string(left_out) + " inside the material " +
+                   (left_out == 1 ? "is" : "are") + " left out";
   }
   return result;
 }

@@ -38,7 +38,7 @@ std::string EdgeComplaint(const Eigen::Vector3d& from, const Eigen::Vector3d& to
   const double length = (to - from).stableNorm();
   if (length >= kMinEdge * diameter) return "";
   return "shorter (" + FormatShort(length) + ") than " + FormatDouble(kMinEdge) +
-         " of the diameter (" + FormatShort(diameter) + "); make its ends one point";
+         " of the diameter (" + FormatShort(diameter) + "); help: merge its ends";
 }
 
 namespace {
@@ -60,7 +60,7 @@ void CheckCoordinates(const Eigen::Vector3d& vertex, int index, const std::strin
     if (std::abs(x) <= kMaxCoordinate) continue;  // false for NaN
     throw MeshError(MeshDefect::kNotFinite, name + ": vertex " + std::to_string(index) +
                                                 ": the coordinate " + FormatDouble(x) +
-                                                " must be finite and of size at most " +
+                                                " must be finite and of magnitude at most " +
                                                 FormatDouble(kMaxCoordinate));
   }
 }
@@ -97,14 +97,14 @@ WeldedSoup WeldVertices(const PolygonSoup& soup, const std::string& name) {
   if (soup.facets.empty()) {
     throw MeshError(
         MeshDefect::kEmpty,
-        name + ": empty: no facet" +
+        name + ": empty: facets not found" +
             (soup.vertices.empty() ? ""
                                    : ", found only " + std::to_string(soup.vertices.size()) +
-                                         " points; help: make a surface of them with repair"));
+                                         " points; help: reconstruct a surface with repair"));
   }
   if (soup.facets.size() > kMaxFacets) {
     throw MeshError(MeshDefect::kTooLarge, name + ": " + std::to_string(soup.facets.size()) +
-                                               " facets, more than " + std::to_string(kMaxFacets));
+                                               " facets, limit " + std::to_string(kMaxFacets));
   }
   WeldedSoup welded;
   welded.facets.reserve(soup.facets.size());

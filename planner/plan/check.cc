@@ -42,15 +42,15 @@ Fault CompareGrasps(const FingerGrasp& held, const grasp::Grasp& expected, doubl
   return fault;
 }
 
-/// Return ": finger 2 is elsewhere" or ": fingers 0, 2 are elsewhere".
+/// Return ": finger 2 differs" or ": fingers 0, 2 differ".
 std::string ElsewhereText(const Fault& fault) {
   std::string list;
   for (const FingerIndex finger : fault.fingers) {
     list += (list.empty() ? "" : ", ") + std::to_string(finger);
   }
   if (list.empty()) return "";
-  return fault.fingers.size() == 1 ? ": finger " + list + " is elsewhere"
-                                   : ": fingers " + list + " are elsewhere";
+  return fault.fingers.size() == 1 ? ": finger " + list + " differs"
+                                   : ": fingers " + list + " differ";
 }
 
 /// Check the initial grasp. start-differs and goal-not-reached are the last reasons of the order.
@@ -60,7 +60,7 @@ void CheckStart(const CheckContext& context, const CheckOptions& options, StepCh
   if (AreSameGrasp(ContactsOf(context.plan.initial), *options.start, context.tolerance())) return;
   hold.reason = Reason::kStartDiffers;
   hold.fault = CompareGrasps(context.plan.initial, *options.start, context.tolerance());
-  hold.detail = "the initial grasp is not the given start grasp" + ElsewhereText(hold.fault);
+  hold.detail = "the initial grasp differs from the given start grasp" + ElsewhereText(hold.fault);
 }
 
 void CheckGoal(const CheckContext& context, const CheckOptions& options, const FingerGrasp& end,
@@ -69,12 +69,12 @@ void CheckGoal(const CheckContext& context, const CheckOptions& options, const F
   if (!AreSameGrasp(ContactsOf(end), context.plan.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
     last.fault = CompareGrasps(end, context.plan.goal, context.tolerance());
-    last.detail = "the last contacts are not those of the plan's goal" + ElsewhereText(last.fault);
+    last.detail = "the last contacts differ from the plan's goal" + ElsewhereText(last.fault);
   } else if (options.goal != nullptr &&
              !AreSameGrasp(context.plan.goal, *options.goal, context.tolerance())) {
     last.reason = Reason::kGoalNotReached;
     last.fault = CompareGrasps(end, *options.goal, context.tolerance());
-    last.detail = "the plan's goal is not the given goal grasp" + ElsewhereText(last.fault);
+    last.detail = "the plan's goal differs from the given goal grasp" + ElsewhereText(last.fault);
   }
 }
 

@@ -18,7 +18,7 @@ struct StepCheck {
   std::string kind;  ///< "hold", or as StepKind
   Reason reason = Reason::kNone;
   std::string detail;    ///< details for messages: finger, waypoint, deviation
-  Fault fault;           ///< the same details for an image
+  Fault fault;           ///< details of the failure for an image
   bool skipped = false;  ///< whether an earlier step failed
   /// Whether every grasp of the step, anywhere on the path, is proved to be force closure at the
   /// friction angle; with CheckOptions::allow_undecided, except for `undecided` intervals. If the
@@ -39,7 +39,7 @@ struct StepCheck {
 struct HandFault {
   EntryIndex entry{0};
   Reason reason = Reason::kNone;
-  std::string detail;  ///< as in StepCheck
+  std::string detail;  ///< description, as in StepCheck
   Fault fault = {};
 };
 

@@ -56,13 +56,13 @@ std::optional<std::string> FindMotionFault(const object::Object& object, const g
   const std::string faces =
       "from face " + std::to_string(from.face) + " to face " + std::to_string(to.face);
   if (!((from.p - to.p).norm() <= tolerance)) {
-    return "moves " + faces + " without turning at a point that both contain";
+    return "moves " + faces + " without rotating at a common point";
   }
   if (!TurnsAtCommonPoint(object, from, to, tolerance)) {
-    return "turns " + faces + ", which do not meet there";
+    return "rotates " + faces + ", which have no common point there";
   }
   if (grasp::AngleBetween(from.n, to.n) > std::numbers::pi - kNormalTolerance) {
-    return "turns " + faces + ", whose normals are opposite";
+    return "rotates " + faces + ", whose normals are opposite";
   }
   return std::nullopt;
 }
@@ -122,7 +122,7 @@ void CheckFingerNumber(const CheckContext& context, FingerIndex finger, int wayp
                        StepFault& fault) {
   if (finger >= 0 && finger < context.plan.fingers) return;
   fault.Add(Reason::kTooManyFingers,
-            At(waypoint, finger) + " does not exist: the hand has " +
+            At(waypoint, finger) + " not found: the hand has " +
                 std::to_string(context.plan.fingers) + " fingers, numbered from 0",
             FaultOf(finger, waypoint));
 }
@@ -219,7 +219,7 @@ void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const ch
     fault.Add(Reason::kNotForceClosure, std::string(name) + " " + AngleNeeded(context, required),
               LossOfClosure(context, grasp, required));
   } else if (!required) {
-    LeaveUnproved(std::string(name) + " has no required friction angle that is certainly below 90°",
+    LeaveUnproved(std::string(name) + ": no required friction angle below 90° is proved",
                   LossOfClosure(context, grasp, required), check, fault);
   }
   if (holds) IncludePatches(context, grasp, name, check, fault);
@@ -262,8 +262,8 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
       fault.Add(
           Reason::kDiscontinuous,
           At(0, held.finger) +
-              " is not at its contact before the step: it is beyond a gap in the surface, or a "
-              "wall, thinner than the tolerance of points",
+              " is not at its contact before the step: a gap in the surface, or a wall, thinner "
+              "than the point tolerance separates them",
           Misplaced(held.finger, 0, moved->contact, held.contact));
     }
   }
@@ -276,7 +276,7 @@ void CheckSameFingers(const FingerGrasp& before, const FingerGrasp& waypoint, in
     if (FindFinger(waypoint, held.finger) == nullptr) {
       Fault missing = FaultOf(held.finger, index);
       missing.expected = {held.contact};
-      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " is missing", missing);
+      fault.Add(Reason::kDiscontinuous, At(index, held.finger) + " not found", missing);
     }
   }
   for (const FingerContact& held : waypoint) {
@@ -336,7 +336,7 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
   const std::string at = FormatShort(path.at) + " of the path " + way;
   if (path.ended_early) {
     return "force closure is not proved: the search for proofs ended at " + at +
-           ", where the path requires more pieces than the limit";
+           ", at the limit of pieces";
   }
   return "force closure is not proved near " + at + ": " + std::to_string(path.undecided) +
          " pieces, each a millionth of the path, are neither proved nor refuted" +
@@ -452,7 +452,7 @@ StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before) {
   check.kind = StepKind(Move{});
   StepFault fault;
   BeginForceClosure(context, check);
-  IncludeRest(context, before, "the grasp that moves", check, fault);
+  IncludeRest(context, before, "the grasp of the in-hand motion", check, fault);
   return Finish(check, fault);
 }
 
@@ -461,7 +461,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   check.kind = StepKind(step);
   StepFault fault;
   if (step.waypoints.empty()) {
-    fault.Add(Reason::kDiscontinuous, "no waypoints");
+    fault.Add(Reason::kDiscontinuous, "waypoints not found");
     return Finish(check, fault);
   }
   for (std::size_t w = 0; w < step.waypoints.size(); ++w) {

@@ -147,14 +147,14 @@ class Region {
 };
 
 void CheckArguments(const object::Polygon& polygon, const grasp::Grasp& grasp, double limit) {
-  if (grasp.size() != 2) throw std::invalid_argument("a contact region is one of two contacts");
+  if (grasp.size() != 2) throw std::invalid_argument("a contact region requires two contacts");
   for (const grasp::Contact& contact : grasp) {
     if (!contact.face.valid() || contact.face >= polygon.face_count()) {
-      throw std::invalid_argument("a contact of a contact region is on no edge");
+      throw std::invalid_argument("the contacts of a contact region must be on edges");
     }
   }
   if (!(limit >= 0) || !std::isfinite(limit)) {
-    throw std::invalid_argument("the limit of a contact region is not a length");
+    throw std::invalid_argument("the limit of a contact region must be a length");
   }
 }
 

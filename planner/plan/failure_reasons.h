@@ -23,7 +23,7 @@ enum class FailureCheck {
 /// if (const FailureReason* slipped = FindFailureReason("slipped")) Print(slipped->meaning);
 /// @endcode
 struct FailureReason {
-  std::string_view name;  ///< as in reports, for example "slipped"
+  std::string_view name;  ///< name in reports, for example "slipped"
   FailureCheck check;
   std::string_view meaning;     ///< full sentences
   std::string_view causes;      ///< usual causes, one per line

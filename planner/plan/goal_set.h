@@ -17,7 +17,7 @@ struct PoseTolerance {
 
 /// Goal: a pose of the object, with a tolerance.
 struct PoseGoal {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the palm's frame, metres
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< pose in the palm frame, metres
   PoseTolerance tolerance = {};
   /// Reference point of the distance, in the object's frame, metres.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

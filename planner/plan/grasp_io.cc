@@ -18,7 +18,8 @@ grasp::Contact ContactOfPoint(const JsonReader& json, const object::Object& obje
   }
   const FaceIndex face = faces.front();
   if (faces.size() > 1 || object.DistanceToBorder(face, point) <= tolerance) {
-    json.Member("point").Fail("on a border of face " + std::to_string(face) + ", normal required");
+    json.Member("point").Fail("on a border of face " + std::to_string(face) +
+                              ", requires a normal");
   }
   return {object.ClosestPoint(face, point), object.inward_normal(face), face};
 }
@@ -96,7 +97,7 @@ std::string FilledContactsWarning(const object::Object& object, const Plan& proj
   }
   if (found.count == 0) return "";
   return std::to_string(found.count) + (found.count == 1 ? " contact is" : " contacts are") +
-         " on surface that the repair filled in (" + found.first + "): the true surface is unknown";
+         " on filled surface (" + found.first + "), which may differ from the true surface";
 }
 
 }  // namespace regrasp::plan

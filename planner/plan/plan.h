@@ -79,7 +79,8 @@ struct HandUse {
 struct Switch {
   FingerGrasp place;
   std::vector<FingerIndex> release;
-  std::optional<SwitchMotion> motion = std::nullopt;  ///< only in a plan for a hand
+  std::optional<SwitchMotion> motion =
+      std::nullopt;  ///< paths of the hand; only in a plan for a hand
 };
 
 /// Claim that a sliding step is force closure anywhere on the path, with its proof. For each pair
@@ -96,7 +97,8 @@ using AlignMotion = std::vector<HandPath>;
 struct Align {
   std::vector<FingerGrasp> waypoints;
   std::optional<AlignCertificate> certificate = std::nullopt;
-  std::optional<AlignMotion> motion = std::nullopt;  ///< only in a plan for a hand
+  std::optional<AlignMotion> motion =
+      std::nullopt;  ///< paths of the hand; only in a plan for a hand
 };
 
 /// In-hand motion: the object moves in the hand, and all fingers keep their contacts and move with

@@ -50,7 +50,7 @@ std::vector<JsonReader> ElementsByWay(const JsonReader& json, const Align& step,
   std::vector<JsonReader> ways = json.Elements();
   if (ways.size() + 1 != step.waypoints.size()) {
     json.Fail("expected " + std::to_string(step.waypoints.size() - 1) + " lists of " + what +
-              ", one for each waypoint but the last, found " + std::to_string(ways.size()));
+              ", one for each waypoint except the last, found " + std::to_string(ways.size()));
   }
   return ways;
 }

@@ -28,8 +28,8 @@ Obstacle Overlap(const FingerContact& a, const FingerContact& b, const FingerGra
   const auto [apart, needed] =
       FormatWithLimit(CentreDistance(a.contact, b.contact, radius), 2 * radius, 4);
   return {"fingers " + std::to_string(a.finger) + " and " + std::to_string(b.finger) +
-              " overlap: their centres are " + apart + " apart, and two fingers of radius " +
-              FormatShort(radius) + " need " + needed + " (units of the object's file)",
+              " overlap: their centres are " + apart + " apart, expected at least " + needed +
+              " for fingers of radius " + FormatShort(radius) + " (units of the object file)",
           {.fingers = {a.finger, b.finger}, .grasp = grasp, .finger_radius = radius}};
 }
 
@@ -128,7 +128,7 @@ std::optional<Obstacle> FindPathObstacle(const object::Object& object, const Fin
     if (end == nullptr) return std::nullopt;
     motions.emplace_back(held.contact, end->contact);
   }
-  const auto at = [](double t) { return FormatShort(t) + " of the way: "; };
+  const auto at = [](double t) { return FormatShort(t) + " of the path: "; };
   const auto grasp_at = [&](double t) {
     FingerGrasp there = from;
     for (std::size_t i = 0; i < there.size(); ++i) there[i].contact = motions[i].At(t);

@@ -80,7 +80,7 @@ ProjectedContact ProjectContact(const object::Object& object, const grasp::Conta
   }
   if (!IsUnit(contact.n)) {
     projected.reason = Reason::kWrongNormal;
-    projected.detail = "the normal is " + FormatShort(contact.n.norm()) + " long, not 1";
+    projected.detail = "the normal must have length 1, found " + FormatShort(contact.n.norm());
     return projected;
   }
   const auto [least, nearest] = RankFaces(faces, object, contact).front();

@@ -99,7 +99,8 @@ struct Fault {
       std::nullopt;  ///< disturbance force under which a replay failed
   /// Object pose at the start of a step that fails in the replay.
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;
-  std::optional<HandFaultPlace> hand = std::nullopt;  ///< only in a plan for a hand
+  std::optional<HandFaultPlace> hand =
+      std::nullopt;  ///< place on the hand; only in a plan for a hand
 };
 
 }  // namespace regrasp::plan

@@ -37,7 +37,7 @@ FingerIndex LowestFreeFinger(const plan::FingerGrasp& holding, int fingers) {
   for (FingerIndex finger{0}; finger < fingers; ++finger) {
     if (plan::FindFinger(holding, finger) == nullptr) return finger;
   }
-  throw std::invalid_argument("the hand has too few fingers for the switch");
+  throw std::invalid_argument("the switch requires more fingers than the hand has");
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ plan::Switch MakeSwitch(const plan::FingerGrasp& before, const grasp::Grasp& aft
 }
 
 CandidateSequence MakeSwitchSequence(std::span<const grasp::Grasp> grasps, int fingers) {
-  if (grasps.empty()) throw std::invalid_argument("a sequence needs a grasp");
+  if (grasps.empty()) throw std::invalid_argument("a sequence requires at least one grasp");
   CandidateSequence sequence;
   sequence.initial = MakeSwitch({}, grasps.front(), fingers).place;
   sequence.grasps = {{grasps.front(), std::nullopt}};
@@ -109,7 +109,7 @@ std::vector<std::string> GraspWarnings(const std::vector<StaticGrasp>& grasps,
     const grasp::Grasp& grasp = grasps[i].grasp;
     if (evaluator.Margin(grasp)) continue;
     if (warnings.empty() && !evaluator.IsReachable(grasp)) {
-      warnings.push_back("no fingertip fits in " + name(i) + ": a contact is in a concave corner");
+      warnings.push_back(name(i) + ": a contact is in a concave corner, so no fingertip fits");
     }
     const grasp::SoftContacts felt(grasp, evaluator.torsion());
     for (const auto& unmet : FindUnmet(felt.view(), evaluator.frame(), evaluator.criteria())) {
@@ -137,7 +137,7 @@ PlanResult ResultOf(const CandidateSequence& candidate, const criteria::GraspEva
   if (const auto obstacle = FindObstacle(candidate, evaluator)) {
     result.status = PlanResult::Status::kNoSequence;
     result.message = "planner " + planner + ": no sequence for fingers of radius " +
-                     FormatShort(evaluator.finger_radius()) + "; in the best sequence, step " +
+                     FormatShort(evaluator.finger_radius()) + "; the best sequence fails at step " +
                      std::to_string(obstacle->index) + ": " + obstacle->detail;
     return result;
   }

@@ -35,7 +35,7 @@ struct Turn {
 enum class RobustnessLevel {
   kNone,       ///< no margins
   kPreferred,  ///< searched for a limited time, then a plan without them
-  kRequired,   ///< no plan without them
+  kRequired,   ///< margins required
 };
 
 /// How far a hand executes a plan in simulation.

@@ -32,7 +32,7 @@ struct GraspChoice {
   enum class Kind {
     kGiven,      ///< `grasp`
     kRandom,     ///< drawn from the planner's graph; a goal is in the component of the start
-    kRandomAny,  ///< drawn evenly over the surface, whether or not a plan exists
+    kRandomAny,  ///< drawn uniformly on the surface; a plan may not exist
     kAny,        ///< any grasp that suits the plan; for planners of hands only
   };
   Kind kind = Kind::kGiven;
@@ -48,7 +48,7 @@ enum class Objective {
   kRegions,  ///< the largest independent contact regions of the two grasps of every switch
 };
 
-/// Receives a description of the current work.
+/// Callback with a description of the current work.
 using Progress = std::function<void(std::string_view)>;
 
 /// A struct with the parameters of one planner, or of a few planners that share them.
@@ -146,7 +146,7 @@ struct PlanRequest {
   /// Points of the object's file on which all contacts must be (object/read_object.h). Null: the
   /// whole surface. Outlives the request; only some planners have this option.
   const std::vector<Eigen::Vector3d>* given_points = nullptr;
-  Objective objective = Objective::kSteps;  ///< only some planners have others than kSteps
+  Objective objective = Objective::kSteps;  ///< objective; some planners support only kSteps
   std::uint64_t seed = 0;                   ///< seed of all random draws
   Progress progress = [](std::string_view) {};
 

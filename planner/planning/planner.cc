@@ -12,7 +12,7 @@ std::optional<MemoryNeed> Planner::EstimateMemory(const PlanRequest& /*request*/
 }
 
 GraphSummary Planner::SummarizeGraph(const PlanRequest& /*request*/) const {
-  throw std::logic_error("the planner " + name() + " has no graph");
+  throw std::logic_error("planner " + name() + ": graph not supported");
 }
 
 std::vector<std::string> OptionsOf(const PlanRequest& request) {
@@ -43,7 +43,7 @@ std::string WhyNotServed(const Planner& planner, const PlanRequest& request) {
     return "planner " + planner.name() + ": graph not supported";
   }
   if (planar && request.hand.torsion > 0) {
-    return "--torsion cannot be used with a planar object";
+    return "--torsion: cannot be used with a planar object";
   }
   const std::vector<std::string>& has = planner.traits().options;
   for (const std::string& option : requested) {

@@ -49,13 +49,13 @@ struct GraphSummary {
   std::int64_t faces = 0;  ///< number of edges of a polygon, or of contact points of a roadmap
   std::string face_name;   ///< name of the elements that `faces` counts: "edges"
   std::vector<TypeSummary> types;
-  /// number of edges per type, for example "parallel-parallel"
+  /// Number of edges per type, for example "parallel-parallel"
   std::vector<std::pair<std::string, std::int64_t>> edges;
   std::int64_t vertices = 0;
   std::int64_t components = 0;
   double vertex_seconds = 0;
   double edge_seconds = 0;
-  /// number of numerically undecidable cases; nullopt if there can be none
+  /// Number of numerically undecidable cases; nullopt if there can be none
   std::optional<std::int64_t> unclear;
   std::optional<SamplingShare> sampling_share;
   int clusters = 0;  ///< number of clusters of the contact points of a roadmap

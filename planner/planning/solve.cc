@@ -53,7 +53,7 @@ class GraspResolver {
   [[nodiscard]] GraspChoice Resolve(GraspChoice choice, RandomUse use) const {
     if (choice.kind == Kind::kAny) {
       if (planner_.traits().needs_hand) return choice;
-      throw std::invalid_argument("only a plan for a hand begins or ends with any grasp");
+      throw std::invalid_argument("start or goal of any kind requires a hand");
     }
     if (choice.kind == Kind::kGiven) {
       Check(choice);
@@ -133,9 +133,10 @@ PlanResult Negative(Status status, std::string message) {
 }  // namespace
 
 PlanResult Solve(const Planner& planner, const PlanRequest& request) {
-  if (!(request.criteria.min_quality >= 0)) throw std::invalid_argument("min_quality is negative");
+  if (!(request.criteria.min_quality >= 0))
+    throw std::invalid_argument("min_quality must be at least 0");
   if (!(request.hand.torsion >= 0) || !std::isfinite(request.hand.torsion)) {
-    throw std::invalid_argument("torsion is negative or not finite");
+    throw std::invalid_argument("torsion must be finite and at least 0");
   }
   if (const std::string why = WhyNotServed(planner, request); !why.empty()) throw InputError(why);
   PlanRequest resolved = request;

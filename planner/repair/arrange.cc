@@ -228,7 +228,7 @@ class MeetingFinder {
     const Kernel::Triangle_3 first(Corner(one, 0), Corner(one, 1), Corner(one, 2));
     const Kernel::Triangle_3 second(Corner(other, 0), Corner(other, 1), Corner(other, 2));
     if (sides.size() == 3 && !CGAL::do_intersect(first, second)) return;
-    if (++meetings_.pairs > kMostPairs) throw std::runtime_error("too many facets meet each other");
+    if (++meetings_.pairs > kMostPairs) throw std::runtime_error("too many triangles intersect");
     const bool flat = std::ranges::all_of(sides, [](int s) { return s == 0; });
     if (flat) return meetings_.coplanar.Unite(one, other);
     const auto common = CGAL::intersection(ExactTriangle(one), ExactTriangle(other));

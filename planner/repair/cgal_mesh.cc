@@ -26,7 +26,7 @@ Mesh MeshOf(const object::PolygonSoup& soup) {
   points.reserve(soup.vertices.size());
   for (const auto& v : soup.vertices) points.emplace_back(v.x(), v.y(), v.z());
   if (!pmp::is_polygon_soup_a_polygon_mesh(soup.facets)) {
-    throw std::runtime_error("its facets do not form a surface");
+    throw std::runtime_error("the triangles do not form a surface");
   }
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(points, soup.facets, mesh);
@@ -106,8 +106,7 @@ SurfaceDistance::SurfaceDistance(const object::PolygonSoup& soup) : tree_(new Tr
     tree_->triangles.push_back(triangle);
     tree_->facets.push_back(static_cast<int>(i));
   }
-  if (tree_->triangles.empty())
-    throw std::runtime_error("no facet has an area that can be measured");
+  if (tree_->triangles.empty()) throw std::runtime_error("the area of all triangles is 0");
   tree_->tree.rebuild(tree_->triangles.begin(), tree_->triangles.end());
   tree_->tree.accelerate_distance_queries();
 }

@@ -174,7 +174,7 @@ StageResult ReconstructSurface(const object::PolygonSoup& cloud) {
   for (const auto& v : cloud.vertices) points.emplace_back(v.x(), v.y(), v.z());
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < kFewestPoints) throw std::runtime_error("fewer than ten points");
+  if (points.size() < kFewestPoints) throw std::runtime_error("expected at least 10 points");
   const Search::Tree tree(points.begin(), points.end());
   const double longest = kLongEdge * TypicalDistance(tree, points);
   std::vector<std::array<std::size_t, 3>> triangles;

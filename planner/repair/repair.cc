@@ -94,11 +94,11 @@ std::string RepairHint(const std::filesystem::path& path, const object::Reading&
   try {
     const Repaired repaired =
         Repair(object::ReadSoup(path, limited).soup, path.string(), {}, limited);
-    return "; help: --repair makes a solid of it: " + RepairText(repaired);
+    return "; help: --repair produces a solid: " + RepairText(repaired);
   } catch (const NotRepaired& refusal) {
-    return "; --repair does not make a solid of it: " + MostHelpful(refusal.attempt()).outcome;
+    return "; --repair does not produce a solid: " + MostHelpful(refusal.attempt()).outcome;
   } catch (const InputError&) {
-    return "; --repair does not make a solid of it";
+    return "; --repair does not produce a solid";
   } catch (const TimeUp&) {
     return "; help: try regrasp repair";
   }
@@ -117,7 +117,7 @@ object::ObjectFile ReadRepaired(const std::filesystem::path& path,
 }
 
 std::string FormatSolid(const object::PolygonSoup& solid) {
-  std::string text = "# a solid that was repaired\n";
+  std::string text = "# repaired solid\n";
   for (const auto& v : solid.vertices) {
     text +=
         "v " + FormatDouble(v.x()) + " " + FormatDouble(v.y()) + " " + FormatDouble(v.z()) + "\n";
@@ -217,9 +217,9 @@ Json RefusalReport(const NotRepaired& refusal, const object::SoupFile& file,
 std::string RepairText(const Repaired& repaired) {
   const std::string& stage = repaired.stages.back().stage;
   const bool cloud = repaired.facets_before == 0;
-  if (stage == "read" && !cloud) return "a solid as it is";
+  if (stage == "read" && !cloud) return "already a solid";
   const std::string before =
-      cloud ? "a cloud of points" : std::to_string(repaired.facets_before) + " facets";
+      cloud ? "a point cloud" : std::to_string(repaired.facets_before) + " facets";
   std::string text =
       before + ", " + std::to_string(repaired.solid.facets.size()) + " after the repair (";
   bool first = true;

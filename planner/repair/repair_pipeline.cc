@@ -63,7 +63,7 @@ class RepairPipeline {
     if (!surface) return false;
     if (last().facts["scatter"].get<double>() > kMostScatter) {
       last().outcome =
-          "points are noise around a surface: they scatter as widely as their distance; "
+          "points too noisy: their scatter about the surface equals their distance; "
           "help: smooth or average them first";
       return false;
     }
@@ -169,7 +169,7 @@ class RepairPipeline {
     }
     stages = std::move(closest_->stages);
     for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
-      if (stages[i].outcome == kIsSolid) stages[i].outcome = "a solid, but a later one is closer";
+      if (stages[i].outcome == kIsSolid) stages[i].outcome = "a solid, but a later stage is closer";
     }
     if (!others.empty()) last().facts["farther_off"] = others;
     result_.solid = std::move(closest_->solid);
@@ -240,7 +240,7 @@ class RepairPipeline {
       if (options_.part) its_original = OriginalOfPart(original_.soup, all, soup);
     }
     if (!Passes(judgement)) return std::nullopt;
-    reading_.Begin("repairing " + name_ + ": measuring what changed");
+    reading_.Begin("repairing " + name_ + ": measuring the changes");
     Comparison comparison =
         Compare(its_original ? *its_original : original_.soup, soup, original_.diameter);
     if (fine != nullptr) {

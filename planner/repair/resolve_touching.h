@@ -6,7 +6,7 @@ namespace regrasp::repair {
 
 /// Treatment of parts of a solid that touch along an edge only.
 enum class Touching {
-  kJoin,  ///< one solid: the surface is moved outwards at the edge
+  kJoin,  ///< one solid; the surface moves outwards at the edge
   kPart,  ///< separate solids: each surface is moved inwards at the edge
 };
 

@@ -66,7 +66,7 @@ StageRun RunStage(const std::function<StageResult()>& stage, const Deadline& dea
     case object::ChildEnd::kCrashed:
       break;
   }
-  return {std::nullopt, "crashed or ran out of memory"};
+  return {std::nullopt, "crashed or exceeded its memory limit"};
 }
 
 StageResult TakePart(const object::PolygonSoup& soup, int part) {

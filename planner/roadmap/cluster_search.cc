@@ -136,7 +136,7 @@ class ClusterSearch {
                                       ? " has no link to them"
                                       : std::string(" is linked by ") + RoadmapLinkName(link));
     };
-    result.message = "planner roadmap connects no path over " +
+    result.message = "planner roadmap finds no path over " +
                      std::to_string(roadmap_.clusters.clustered_count()) + " contact points in " +
                      std::to_string(roadmap_.clusters.cluster_count()) +
                      " clusters: " + std::to_string(roadmap_.roadmap.vertex_count()) +
@@ -150,7 +150,7 @@ class ClusterSearch {
     result.message +=
         chain.exhausted
             ? "; no sequence exists over these points: the fallback search reached all of " +
-                  sizes + " that one side can reach"
+                  sizes + " that are reachable from one side"
             : "; the fallback search stopped after " + sizes;
     return result;
   }

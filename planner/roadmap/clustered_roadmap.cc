@@ -35,7 +35,7 @@ Roadmap BuildRepresentativeRoadmap(const object::Polyhedron& solid, const Contac
 ContactClusters ClusterContacts(const object::Polyhedron& solid,
                                 const ClusteredRoadmapOptions& options) {
   if (options.clusters < kFewestClusters || options.clusters > kMostClusters) {
-    throw std::invalid_argument("the number of clusters is out of range");
+    throw std::invalid_argument("the number of clusters must be within its limits");
   }
   options.progress("choosing contact points");
   std::vector<grasp::Contact> contacts =
@@ -80,7 +80,7 @@ ContactClusters ClustersOf(const object::Polyhedron& solid, const plan::Plan& pl
   ClusteredRoadmapOptions options;
   options.friction_angle = plan.friction_angle - note.roughness.value_or(0);
   if (options.friction_angle <= 0) {
-    throw InputError("plan: the roughness of the roadmap must be smaller than the friction angle");
+    throw InputError("plan: /roadmap: the roughness must be less than the friction angle");
   }
   options.contacts = note.contacts;
   options.clusters = note.clusters;
@@ -201,7 +201,7 @@ const object::Polyhedron& SolidOf(const planning::PlanRequest& request) {
 void CheckSize(const RoadmapSize& size) {
   const int most = size.clusters > 0 ? kMaxClusteredContacts : kMaxRoadmapContacts;
   if (size.contacts < kRoadmapContacts || size.contacts > most) {
-    throw std::invalid_argument("the number of contact points is out of range");
+    throw std::invalid_argument("the number of contact points must be within its limits");
   }
 }
 
@@ -225,7 +225,7 @@ RoadmapSize SizeOf(const planning::PlanRequest& request) {
 std::vector<grasp::Contact> SpreadContacts(const planning::PlanRequest& request) {
   const RoadmapSize size = SizeOf(request);
   CheckSize(size);
-  request.progress("spreading " + std::to_string(size.contacts) + " contact points");
+  request.progress("sampling " + std::to_string(size.contacts) + " contact points");
   std::vector<grasp::Contact> contacts =
       request.given_points == nullptr
           ? sampling::SpreadContactPoints(SolidOf(request), size.contacts, request.seed)

@@ -54,7 +54,7 @@ struct ClusteredRoadmap {
   double friction_angle;
   object::WrenchFrame frame;
   ContactClusters clusters;
-  Roadmap roadmap;  ///< its points are the representatives in cluster order
+  Roadmap roadmap;  ///< roadmap over the representatives, in cluster order
   search::Components components;
 };
 

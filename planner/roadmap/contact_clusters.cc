@@ -111,7 +111,7 @@ KMeansClusters RunOnce(const Eigen::MatrixXd& points, int count, RandomStream& r
 KMeansClusters KMeans(const Eigen::MatrixXd& points, int count, int restarts, RandomStream& random,
                       const Tell& tell) {
   if (count < 1 || count > points.rows() || restarts < 1) {
-    throw std::invalid_argument("k-means needs 1 to n clusters and a run");
+    throw std::invalid_argument("k-means requires 1 to n clusters and at least one run");
   }
   CountedProgress progress(tell, "sorting contact points into clusters, runs", restarts);
   KMeansClusters best = RunOnce(points, count, random);
@@ -237,7 +237,7 @@ EigenPairs LargestEigenPairs(const Eigen::MatrixXd& matrix, int count) {
 
 SpectralEmbedding EmbedAffinity(const Eigen::MatrixXd& affinity, int dimension) {
   if (dimension < 1 || dimension >= affinity.rows()) {
-    throw std::invalid_argument("a spectral embedding has 1 to n - 1 dimensions");
+    throw std::invalid_argument("a spectral embedding requires 1 to n - 1 dimensions");
   }
   SpectralEmbedding embedding;
   embedding.degrees = affinity.rowwise().sum();

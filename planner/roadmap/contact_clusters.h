@@ -17,7 +17,7 @@ namespace regrasp::roadmap {
 /// Result of k-means clustering.
 struct KMeansClusters {
   Eigen::MatrixXd centers;      ///< k × d, means of the clusters
-  std::vector<int> cluster_of;  ///< by point
+  std::vector<int> cluster_of;  ///< cluster of each point
   double cost = 0;              ///< sum of squared distances of points to their centres
 };
 

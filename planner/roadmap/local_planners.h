@@ -22,11 +22,11 @@ using FourClusters = std::array<ClusterIndex, 4>;
 
 /// Method by which a grasp is linked to the representative roadmap.
 enum class RoadmapLink {
-  kNone,        ///< no link
+  kNone,        ///< no link found
   kVertex,      ///< the grasp is a vertex
-  kAlgorithm1,  ///< to the grasp of the representatives of its own clusters
-  kAlgorithm2,  ///< to a grasp that differs from that in one cluster
-  kAlgorithm3,  ///< with its own contacts added to the representatives
+  kAlgorithm1,  ///< link to the representatives of its own clusters
+  kAlgorithm2,  ///< link to a grasp that differs from that in one cluster
+  kAlgorithm3,  ///< link with its own contacts added to the representatives
 };
 
 /// Return the name of a link in plans: "vertex", "algorithm-1", …
@@ -94,7 +94,7 @@ struct ContactChain {
     kLastResort,  ///< last resort: grasps of all contact points
   };
   By by = By::kNothing;
-  std::vector<Quadruple> grasps;  ///< from start to goal, both included; empty if none
+  std::vector<Quadruple> grasps;  ///< path from start to goal, inclusive; empty if none
   RoadmapLink start_link = RoadmapLink::kNone;
   RoadmapLink goal_link = RoadmapLink::kNone;
   /// Whether a failed last resort searched one side completely.

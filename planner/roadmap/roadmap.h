@@ -91,11 +91,11 @@ class Roadmap final : public search::SwitchingGraph {
   [[nodiscard]] std::int64_t EdgesWith(int triple) const;
 
   std::vector<grasp::Contact> points_;
-  std::vector<Quadruple> vertices_;  ///< in lexicographic order
+  std::vector<Quadruple> vertices_;  ///< vertices in lexicographic order
   /// Vertices that contain a triple: triple_begin_[triple] … triple_begin_[triple + 1].
   std::vector<int> triple_begin_;
   std::vector<int> triple_vertices_;
-  std::vector<bool> excluded_;  ///< by pair of points: two fingers cannot be at both
+  std::vector<bool> excluded_;  ///< whether two fingers cannot be at both, by pair of points
   bool any_excluded_ = false;   ///< rarely true for point fingers
 };
 

@@ -184,7 +184,7 @@ std::vector<grasp::Contact> KeepFromBorders(const object::Polyhedron& solid,
 
 std::vector<grasp::Contact> SpreadContactPoints(const object::Polyhedron& solid, int count,
                                                 std::uint64_t seed) {
-  if (count < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
+  if (count < 1) throw std::invalid_argument("a roadmap requires at least one contact point");
   const std::vector<grasp::Contact> candidates =
       KeepFromBorders(solid, DrawCandidates(solid, count, seed));
   return EliminateSamples(candidates, count, SurfaceSampler(solid).measure());
@@ -192,7 +192,7 @@ std::vector<grasp::Contact> SpreadContactPoints(const object::Polyhedron& solid,
 
 std::vector<grasp::Contact> MeshContacts(const object::Polyhedron& solid, int most,
                                          std::uint64_t seed) {
-  if (most < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
+  if (most < 1) throw std::invalid_argument("a roadmap requires at least one contact point");
   const int triangles = static_cast<int>(solid.triangles().size());
   const bool few_faces = std::int64_t{kFewFaces} * solid.face_count() < most;
   if (triangles > most || few_faces) return SpreadContactPoints(solid, most, seed);
@@ -281,7 +281,7 @@ std::optional<grasp::Contact> ContactAt(const object::Polyhedron& solid, const V
 std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
                                           std::span<const Vector3d> points, int least, int most,
                                           std::uint64_t seed) {
-  if (most < 1) throw std::invalid_argument("a roadmap needs at least one contact point");
+  if (most < 1) throw std::invalid_argument("a roadmap requires at least one contact point");
   std::vector<Vector3d> left(points.begin(), points.end());
   RandomStream random(seed, RandomUse::kContactPoints);
   std::vector<grasp::Contact> found;
@@ -294,8 +294,8 @@ std::vector<grasp::Contact> GivenContacts(const object::Polyhedron& solid,
     throw NoGrasp{"expected at least " + std::to_string(least) +
                   " given points for fingers, found " + std::to_string(found.size()) + " of " +
                   std::to_string(points.size()) +
-                  ": a point must be on the surface, and not on an edge, a rough place "
-                  "(--patch roughness) or a filled surface"};
+                  "; a point must be on the surface, but not on an edge, a rough place "
+                  "(--patch roughness) or filled surface"};
   }
   return EliminateSamples(found, most, SurfaceSampler(solid).measure());
 }

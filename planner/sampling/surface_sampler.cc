@@ -220,7 +220,7 @@ Vector3d SurfaceSampler::DrawInwards(FaceIndex face, const Vector3d& border, dou
 namespace {
 
 struct Direction {
-  double angle;  ///< in (−π, π]
+  double angle;  ///< angle in (−π, π]
   Eigen::Vector3d normal;
 };
 

@@ -102,7 +102,7 @@ class SurfaceSampler {
 
   const object::Object& object_;
   double finger_radius_;
-  double clearance_;                 ///< from sharp edges, in object units
+  double clearance_;                 ///< distance from sharp edges, object units
   const object::Polyhedron* solid_;  ///< the object in space, otherwise null
   const object::Polygon* polygon_;   ///< the object in the plane, otherwise null
   std::vector<int> facets_;          ///< grouped by face

@@ -48,7 +48,7 @@ class SwitchingGraph {
 
 /// Connected components of a graph.
 struct Components {
-  std::vector<int> of_vertex;  ///< by vertex; numbered from 0 by their first vertices
+  std::vector<int> of_vertex;  ///< component of each vertex; numbered by first vertices
   std::vector<int> sizes;      ///< number of vertices by component
   [[nodiscard]] int count() const { return static_cast<int>(sizes.size()); }
 };

@@ -97,7 +97,8 @@ class SequenceBuilder {
     }
     if (!AlignTo(*at, to, std::nullopt, sequence)) {
       if (switches->empty())
-        throw sampling::NoGrasp{"the align from start to goal is too narrow for doubles"};
+        throw sampling::NoGrasp{
+            "the sliding step from start to goal is too short for double precision"};
       banned.insert(switches->back().edge);
       return std::nullopt;
     }

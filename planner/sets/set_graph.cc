@@ -15,7 +15,7 @@ namespace regrasp::sets {
 
 double SetGraph::CheckedTangent(double friction_angle) {
   if (friction_angle > 0 && friction_angle < std::numbers::pi / 2) return std::tan(friction_angle);
-  throw std::invalid_argument("the friction half-angle is not in (0, pi/2)");
+  throw std::invalid_argument("the friction angle must be in (0, pi/2)");
 }
 
 void SetGraph::BeginVertices() { stopwatch_ = {}; }

@@ -61,7 +61,7 @@ class SetGraph : public search::SwitchingGraph {
 
 /// Grasp sets that are connected with the start or goal grasp.
 struct GraspEnds {
-  std::set<SetIndex> of_itself;  ///< that contain the grasp
+  std::set<SetIndex> of_itself;  ///< sets that contain the grasp
   std::set<SetIndex> by_switch;  ///< reached by one finger switch from the grasp
 };
 

@@ -148,7 +148,7 @@ class SetPlanner {
           reached.begin(), reached.end(), 0,
           [&](int sum, int component) { return sum + components.sizes[component]; }));
     };
-    return "no sequence of switches and aligns leads from start to goal: of " +
+    return "no sequence of switches and sliding steps from start to goal: of " +
            std::to_string(model_.graph().vertex_count()) + " " + model_.sets_name() +
            " the start's component has " + size(start_at_) + ", the goal's " + size(goal_at_);
   }

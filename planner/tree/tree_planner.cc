@@ -142,8 +142,7 @@ class TreeSearch {
     const auto found = Search(from, to, wide);
     if (!found) return NoSequence(from, to);
     // Only the contacts of the path, because the search may have added thousands.
-    SearchSpace space =
-        MakeSpace(friction_angle_, 1, most_tests_, "shortening and widening the sequence");
+    SearchSpace space = MakeSpace(friction_angle_, 1, most_tests_, "improving the sequence");
     GraspPath path = MakeGood(Renumber(*found, wide, space), from, to, space);
     std::vector<std::string> notes = Improve(path, from, space);
     planning::PlanResult result =
@@ -301,7 +300,7 @@ class TreeSearch {
     result.message = "planner general explored " + reached(0) + " from the start and " +
                      reached(1) + " from the goal in " + std::to_string(reach_.tests) + " tests" +
                      (reach_.out_of_time ? "; time limit reached" : "") +
-                     "; this does not prove that there is no sequence" +
+                     "; this does not prove infeasibility" +
                      (parameters_.explain ? ""
                                           : "; help: --explain searches for the smallest friction "
                                             "that is sufficient");

@@ -60,8 +60,8 @@ def _man(parser) -> str:
         lines += [".TP", f".B {escaped(name)}{called}",
                   escaped(text) + (" (required)" if needed else "")]
     lines += [".SH EXIT STATUS"]
-    for code, meaning in [(0, "done"), (2, "bad usage or bad input: one line that names the file, the "
-                                           "element and what is wrong"), (3, "the environment failed")]:
+    for code, meaning in [(0, "success"), (2, "bad usage or bad input: one line with the file, the "
+                                              "element and the problem"), (3, "error of the environment")]:
         lines += [".TP", f".B {code}", meaning]
     return "\n".join(lines) + "\n"
 

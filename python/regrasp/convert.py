@@ -187,7 +187,7 @@ def _object(options) -> Object:
 
 def _convert_motion(options, hand: Hand | None) -> list[str]:
     """Convert to .mcap."""
-    path = _single(options.inputs, "what goes to .mcap")
+    path = _single(options.inputs, "a plan or trajectory")
     if _ending(path) == ".json":
         motion = formats.motion_of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
     elif _ending(path) == ".npz":
@@ -209,7 +209,7 @@ def _convert_fingers(options) -> list[str]:
     grasps = grasps.on(body, tolerance=options.tolerance_mm / 1000)
     if ending == ".npz":
         grasps.write_npz(options.output)
-        return [*grasps.lost, "the order of the grasps means nothing to validate --grasps"]
+        return [*grasps.lost, "the order of the grasps, which validate --grasps does not use"]
     grasps.as_plan(body, _need(options.mu, "mu", "for a plan")).write(options.output)
     return grasps.lost
 
@@ -257,7 +257,7 @@ def _no_contacts(options, grasps: formats.HandGrasps, hand: Hand, body: Object,
         gaps: Signed distances (N, selected fingers), m.
     """
     if not len(grasps):
-        return "no contacts found: the files hold no grasp"
+        return "no contacts found: the input has no grasps"
     chosen = _chosen(options.fingers, hand)
     touching = np.abs(gaps) <= options.tolerance_mm / 1000
     if touching.any():

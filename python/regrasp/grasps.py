@@ -67,13 +67,13 @@ class ForceClosure:
             if 1e-9 < abs(self.margin) < 1e9:  # beyond it, the bound of an early verdict
                 rows.append(["margin", f"{self.margin:.4g} or more"])
             if self.required_angle_deg is not None:
-                rows.append(["required half-angle", f"{self.required_angle_deg:.2f}°"])
+                rows.append(["required friction angle", f"{self.required_angle_deg:.2f}°"])
             if self.quality is not None:
                 rows.append(["quality", f"{self.quality:.4g} to {self.quality_upper:.4g}"])
             return _html.table(["", "of one grasp"], rows)
         rows = [["force closure", str(int(self.is_force_closure.sum()))],
                 ["too close to call", str(int(self.too_close.sum()))]]
-        for name, values in (("required half-angle, smallest", self.required_angle_deg),
+        for name, values in (("required friction angle, smallest", self.required_angle_deg),
                              ("quality, largest", self.quality)):
             if values is not None and len(values) and not np.isnan(values).all():
                 best = np.nanmin(values) if name.startswith("required") else values.max()
@@ -238,7 +238,7 @@ def _in_parts(judge, points, normals, part: int, progress) -> list[np.ndarray]:
         decisions, lower, _, *measures = judge(points[begin:end], normals[begin:end])
         results.append((decisions, lower, *measures))
         if progress is not None and count > part:
-            progress(f"judged {end} of {count} grasps")
+            progress(f"tested {end} of {count} grasps")
     return [np.concatenate(columns) for columns in zip(*results)]
 
 

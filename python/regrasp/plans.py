@@ -102,7 +102,7 @@ class Plan:
             return page
         try:
             return page + _html.drawing(self.figure(), repr(self))
-        except InputError as error:  # a step that cannot be drawn; the table says what there is
+        except InputError as error:  # a step cannot be drawn, so only the table is shown
             return page + _html.text(str(error))
 
     def __len__(self) -> int:

@@ -127,7 +127,7 @@ struct FingerMarker {
   FingerIndex finger = {};
   Eigen::Vector2d centre;  ///< position, points
   MarkerStyle style = MarkerStyle::kFilled;
-  bool ring = false;              ///< whether it has the ring of a placed finger
+  bool ring = false;              ///< whether the contact has the ring of a placed finger
   double radius = kMarkerRadius;  ///< radius of the disc with the same area, points
 
   /// Return the distance from the centre to the outer border, with the ring, points.

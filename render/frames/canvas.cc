@@ -107,7 +107,8 @@ OffscreenContext::OffscreenContext(int width, int height)
       height_(height),
       pixels_(std::size_t{kBytesPerPixel} * width * height),
       context_(CreateContext()) {
-  if (context_ == nullptr) throw EnvironmentError("no off-screen rendering context (OSMesa)");
+  if (context_ == nullptr)
+    throw EnvironmentError("off-screen rendering context (OSMesa) cannot be created");
   try {
     const Use tried(*this);
   } catch (...) {

@@ -27,7 +27,7 @@ struct FaultMarks {
   /// A normal, drawn from its contact into the object.
   struct Normal {
     Eigen::Vector3d at, along;
-    bool expected = false;  ///< whether it is the expected normal instead of the wrong one
+    bool expected = false;  ///< whether the normal is the expected instead of the wrong one
     std::string text;
   };
   /// A required or former position of a finger.

@@ -85,7 +85,8 @@ void CheckOptions(const FrameOptions& options) {
   const auto good = [](int side) { return side >= kMinFrameSide && side <= kMaxFrameSide; };
   if (!good(options.width) || !good(options.height) || options.supersampling < 1 ||
       options.supersampling > kMaxSupersampling) {
-    throw std::invalid_argument("FrameRenderer: image size or supersampling out of range");
+    throw std::invalid_argument(
+        "FrameRenderer: image size and supersampling must be within their limits");
   }
 }
 

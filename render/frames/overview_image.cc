@@ -139,7 +139,7 @@ void OverviewImage::DrawHeading(const OverviewLabel& heading) {
 
 int OverviewImage::TakeCell(const OverviewLabel& label) {
   if (added_ == count_) {
-    throw std::invalid_argument("OverviewImage: more images than announced");
+    throw std::invalid_argument("OverviewImage: more images than the announced number");
   }
   const int x = grid_.x(added_);
   cairo_t* cr = image_->context();

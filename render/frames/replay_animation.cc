@@ -191,7 +191,7 @@ std::vector<std::string> RenderAnimation(const FrameRenderer& renderer,
                                          const std::vector<AnimationFrame>& frames,
                                          const std::vector<AnimationFormat>& formats, int workers,
                                          const std::function<void(int)>& on_frame) {
-  if (frames.empty()) throw std::invalid_argument("RenderAnimation: no frame");
+  if (frames.empty()) throw std::invalid_argument("RenderAnimation: expected at least one frame");
   const bool has_gif = std::ranges::find(formats, AnimationFormat::kGif) != formats.end();
   const std::vector<Image> examples =
       has_gif ? RenderExamples(renderer, frames, workers) : std::vector<Image>();

@@ -33,7 +33,7 @@ std::string_view MediaType(AnimationFormat format) {
     case AnimationFormat::kWebp:
       return "image/webp";
   }
-  throw std::invalid_argument("MediaType: no such format");
+  throw std::invalid_argument("MediaType: format not supported");
 }
 
 std::unique_ptr<Animation> MakeAnimation(AnimationFormat format, int width, int height,
@@ -46,7 +46,7 @@ std::unique_ptr<Animation> MakeAnimation(AnimationFormat format, int width, int 
     case AnimationFormat::kWebp:
       return MakeWebpAnimation(width, height);
   }
-  throw std::invalid_argument("MakeAnimation: no such format");
+  throw std::invalid_argument("MakeAnimation: format not supported");
 }
 
 namespace {
@@ -61,14 +61,14 @@ constexpr int kMaxKeyDistance = 10;
 WebPConfig MakeConfig() {
   WebPConfig config;
   const bool good = WebPConfigPreset(&config, WEBP_PRESET_DRAWING, kQuality) != 0;
-  assert(good && "libwebp of another version than its header");
+  assert(good && "libwebp: version differs from its header");
   static_cast<void>(good);
   return config;
 }
 
 void CheckSize(int width, int height) {
   if (width < 1 || height < 1 || width > WEBP_MAX_DIMENSION || height > WEBP_MAX_DIMENSION) {
-    throw std::invalid_argument("WebP: an image of a size that it cannot hold");
+    throw std::invalid_argument("WebP: image size not supported");
   }
 }
 
@@ -83,7 +83,7 @@ class WebpImage {
  public:
   explicit WebpImage(const Image& image) {
     const bool good = WebPPictureInit(&picture_) != 0;
-    assert(good && "libwebp of another version than its header");
+    assert(good && "libwebp: version differs from its header");
     static_cast<void>(good);
     picture_.use_argb = 1;  // libwebp scales and splits frames in RGB
     picture_.width = image.width;
@@ -107,7 +107,7 @@ class WebpAnimation : public Animation {
     CheckSize(width, height);
     WebPAnimEncoderOptions options;
     const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
-    assert(good && "libwebpmux of another version than its header");
+    assert(good && "libwebpmux: version differs from its header");
     static_cast<void>(good);
     options.kmin = kMaxKeyDistance / 2 + 1;
     options.kmax = kMaxKeyDistance;
@@ -120,7 +120,8 @@ class WebpAnimation : public Animation {
 
   void Add(const Image& image, int duration_ms) override {
     if (image.width != width_ || image.height != height_ || duration_ms < 1) {
-      throw std::invalid_argument("WebpAnimation: an image of another size, or no duration");
+      throw std::invalid_argument(
+          "WebpAnimation: images must have one size and a positive duration");
     }
     WebpImage webp_image(image);
     RequireWebp(WebPAnimEncoderAdd(encoder_, webp_image.get(), time_ms_, &config_) != 0);
@@ -151,7 +152,7 @@ class WebpAnimation : public Animation {
 
 std::string EncodeWebp(const Image& image, int width) {
   CheckSize(image.width, image.height);
-  if (width < 1) throw std::invalid_argument("EncodeWebp: no width");
+  if (width < 1) throw std::invalid_argument("EncodeWebp: the width must be positive");
   WebpImage webp_image(image);
   if (width < image.width) {
     const double height = std::round(static_cast<double>(image.height) * width / image.width);
@@ -234,7 +235,8 @@ Color Rounded(const std::array<double, kChannels>& mean) {
 
 std::vector<Color> ChooseColors(std::span<const Image> images, int count) {
   std::vector<Weighted> weighted = WeighColors(images);
-  if (weighted.empty() || count < 1) throw std::invalid_argument("ChooseColors: no colour");
+  if (weighted.empty() || count < 1)
+    throw std::invalid_argument("ChooseColors: expected at least one colour");
   struct Node {
     Box box;
     Spread spread;

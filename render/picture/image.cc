@@ -45,7 +45,7 @@ Image MakeImage(int width, int height, unsigned char brightness) {
 
 Image Shrink(const Image& image, int factor) {
   if (factor < 1 || image.width % factor != 0 || image.height % factor != 0) {
-    throw std::invalid_argument("Shrink: the factor does not divide the image's sides");
+    throw std::invalid_argument("Shrink: the factor must divide the image's sides");
   }
   if (factor == 1) return image;
   Image small = MakeImage(image.width / factor, image.height / factor);
@@ -72,7 +72,7 @@ Image Shrink(const Image& image, int factor) {
 
 Image MakeTransparent(Image on_white, const Image& on_black) {
   if (on_white.width != on_black.width || on_white.height != on_black.height) {
-    throw std::invalid_argument("MakeTransparent: two sizes");
+    throw std::invalid_argument("MakeTransparent: both images must have one size");
   }
   on_white.alpha.resize(on_white.rgb.size() / 3);
   for (std::size_t i = 0; i < on_white.alpha.size(); ++i) {

@@ -317,7 +317,7 @@ class Video : public Animation {
  public:
   Video(int width, int height) : width_(width), height_(height) {
     if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
-      throw std::invalid_argument("video: images of a size that it cannot hold");
+      throw std::invalid_argument("video: image size not supported");
     }
     ffmpeg().av_log_set_level(AV_LOG_QUIET);  // a library must not print
   }
@@ -325,7 +325,7 @@ class Video : public Animation {
   void Add(const Image& image, int duration_ms) final {
     if (image.width != width_ || image.height != height_ || duration_ms < kTick_ms ||
         duration_ms % kTick_ms != 0) {
-      throw std::invalid_argument("video: an image of another size, or no such duration");
+      throw std::invalid_argument("video: images must have one size and a supported duration");
     }
     AddImage(image, duration_ms);
     time_ms_ += duration_ms;
@@ -344,7 +344,8 @@ class Video : public Animation {
 const AVCodec* FindX264() {
   const AVCodec* codec = ffmpeg().avcodec_find_encoder_by_name("libx264");
   if (codec == nullptr) {
-    throw EnvironmentError("libavcodec has no encoder of H.264 (libx264): write .webp or .gif");
+    throw EnvironmentError(
+        "H.264 encoder (libx264) not found in libavcodec; help: write .webp or .gif");
   }
   return codec;
 }
@@ -430,7 +431,7 @@ std::unique_ptr<Animation> MakeMp4(int width, int height) {
 
 std::unique_ptr<Animation> MakeGif(int width, int height, const std::vector<Color>& colors) {
   if (colors.empty() || colors.size() > kGifColors) {
-    throw std::invalid_argument("MakeGif: no such number of colours");
+    throw std::invalid_argument("MakeGif: number of colours not supported");
   }
   return std::make_unique<Gif>(width, height, colors);
 }

@@ -20,7 +20,7 @@ struct DrawingOptions {
   const HandPicture* hand = nullptr;  ///< hand of the plan; null: fingers without a hand
   int workers = 1;                    ///< number of drawing threads
   int sheet_width = render::kOverviewWidth;
-  /// Receives the number of finished images and of all images after each image.
+  /// Callback after each image: number of finished images and of all images.
   std::function<void(int done, int all)> on_picture = [](int, int) {};
 };
 

@@ -119,7 +119,7 @@ std::string ReadConditionName(const JsonReader& json, std::set<std::string>& nam
   const JsonReader name = json.Member(kNameKey);
   const std::string text = name.String();
   if (text.empty()) name.Fail("expected a name, found an empty one");
-  if (!names.insert(text).second) name.Fail("found twice: " + name.Quoted());
+  if (!names.insert(text).second) name.Fail("must be unique, found twice: " + name.Quoted());
   return text;
 }
 

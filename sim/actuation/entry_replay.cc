@@ -136,7 +136,7 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
   } catch (const UnstableError& error) {
     has_ended_ = true;
     step.reason = plan::Reason::kSimulationUnstable;
-    step.detail = std::string("the simulation became unstable: ") + error.what();
+    step.detail = std::string("the simulation diverges: ") + error.what();
   }
   Describe(step);
   step.fixed = static_cast<const StepMotion&>(step);  // only servos resist the disturbance test
@@ -214,7 +214,7 @@ void EntryReplay::Run(double seconds, const OnTick& on_tick) {
 }
 
 void EntryReplay::TakeHold() {
-  monitor_.SetPhase("while the hand takes hold");
+  monitor_.SetPhase("while the hand grasps");
   // The object is fixed until the fingers hold it.
   world_.PinObject(true);
   monitor_.SetSettling(true);
@@ -232,7 +232,7 @@ void EntryReplay::TakeHold() {
 }
 
 void EntryReplay::Move(const plan::HandPath& path) {
-  monitor_.SetPhase("during the move");
+  monitor_.SetPhase("during the in-hand motion");
   const TimedPath timed(path, CarryingSpeed(world_));
   const double duration = timed.duration();
   Run(duration, [&](double share) {
@@ -292,7 +292,7 @@ void EntryReplay::Slide(const plan::FingerGrasp& from, const plan::FingerGrasp& 
   if (tips.empty()) return;
   const Hold sliding = {holding_, hold.grasp_force_N, tips.At(0)};
   const bool is_held = control_.SlidingMargin(sliding, to) > kHeldBySome;
-  const std::string unheld = "while a finger slides that the others cannot balance";
+  const std::string unheld = "while a finger slides whose force the others cannot balance";
   const auto lead = [&](double share) {
     state_ = tips.StateAt(share);
     for (const SlidingFinger& tip : tips.At(share)) {
@@ -323,7 +323,7 @@ std::vector<EntryReplay::Coming> EntryReplay::ComingTo(const plan::FingerGrasp& 
 }
 
 void EntryReplay::PlaceFingers(const plan::Switch& change) {
-  monitor_.SetPhase("while a finger comes");
+  monitor_.SetPhase("while a finger makes contact");
   const plan::HandPath& path = change.motion->place;
   std::vector<Coming> coming = ComingTo(change.place);
   const TimedPath timed(path, kFreeJoints);
@@ -378,7 +378,7 @@ void EntryReplay::Descend(const HandState& end, std::vector<Coming>& coming) {
 }
 
 void EntryReplay::ReleaseFingers(const plan::Switch& change) {
-  monitor_.SetPhase("while a finger leaves");
+  monitor_.SetPhase("while a finger breaks contact");
   for (const FingerIndex f : change.release) control_.Detach(f);
   const TimedPath timed(change.motion->release, kFreeJoints);
   const double duration = timed.duration();
@@ -395,9 +395,9 @@ void EntryReplay::ReleaseFingers(const plan::Switch& change) {
 }
 
 void EntryReplay::Rest() {
-  monitor_.SetPhase("coming to rest");
+  monitor_.SetPhase("while settling");
   Run(kSettle, [](double) {});
-  monitor_.SetPhase("at rest");
+  monitor_.SetPhase("in the static grasp");
   monitor_.SetSettling(false);
   monitor_.WatchRest(state_.pose);
   monitor_.WatchTipsAtRest();

@@ -186,7 +186,7 @@ void ExecutionMonitor::WatchContact(FingerIndex f) {
   const std::string name = FingerText(world_.hand(), f);
   const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
   if (state.without_force > tolerance_.lost_s) {
-    Fail(Reason::kContactLost, name + " has lost its contact",
+    Fail(Reason::kContactLost, name + " loses its contact",
          {"no force", {f}, {{f, joints}}, world_.tip(f)});
   } else {
     const std::string how = state.slides_to_O ? " off its path" : " slipped";
@@ -365,7 +365,7 @@ void ExecutionMonitor::WatchTipsAtRest() {
 void ExecutionMonitor::WatchPlaced(FingerIndex f) {
   if (std::isfinite(world_.touch(f).gap)) return;
   const int joints = static_cast<int>(world_.hand().fingers[f].joints.size());
-  Fail(Reason::kContactLost, FingerText(world_.hand(), f) + " has not reached the object",
+  Fail(Reason::kContactLost, FingerText(world_.hand(), f) + " does not reach the object",
        {"not reached", {f}, {{f, joints}}, world_.tip(f)});
 }
 

@@ -34,7 +34,7 @@ struct SlidingFinger {
 struct Hold {
   std::vector<FingerIndex> fingers;
   double grasp_force_N = 0;                 ///< grasp force: sum of their normal forces
-  std::vector<SlidingFinger> sliding = {};  ///< those of the fingers that slide
+  std::vector<SlidingFinger> sliding = {};  ///< state of the sliding fingers
 
   bool operator==(const Hold&) const = default;
 };
@@ -118,7 +118,7 @@ class HandControl {
     return fingers_[finger].force;
   }
 
-  /// smallest normal force of a finger in contact, N
+  /// Smallest normal force of a finger in contact, N
   inline static constexpr double kTouchForce = 0.1;
   /// period of force planning and measurements, seconds
   inline static constexpr double kPeriod = 0.01;

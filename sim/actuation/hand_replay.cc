@@ -256,8 +256,8 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
                         const ReplayObserver& observer, int steps) {
   if (plan.torsion != 0) {
     throw InputError(
-        "replay by a hand: its fingertips are hard points, and the plan is for soft "
-        "fingers; --replay points has them");
+        "hand replay: soft-finger contacts not supported, expected hard contacts; help: "
+        "--replay points");
   }
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   if (given.engine != EngineChoice::kBoth) {

@@ -52,7 +52,7 @@ class CompiledScenes {
       found = known.begin();
     }
     kinematics::ModelPtr copy(mj_copyModel(nullptr, found->model.get()));
-    if (!copy) throw EnvironmentError("MuJoCo has no memory for a hand");
+    if (!copy) throw EnvironmentError("MuJoCo: not enough memory for the hand");
     return copy;
   }
 
@@ -75,7 +75,7 @@ HandScene::HandScene(const kinematics::HandFile& file, const object::Polyhedron&
   model = CompiledScenes::Get(file, HandSceneText(file, solid, scale, options.mass_kg));
   SetRoom(surface.most_contacts(), options.physics, *model);
   data.reset(mj_makeData(model.get()));
-  if (!data) throw EnvironmentError("MuJoCo has no memory for a hand");
+  if (!data) throw EnvironmentError("MuJoCo: not enough memory for the hand");
   centroid = scale * solid.mass_properties().centroid;
   FindParts(file);
   CheckObjectMass(file);
@@ -97,7 +97,7 @@ HandScene::HandScene(const kinematics::HandFile& file, const object::Polyhedron&
 
 int HandScene::Id(int kind, const std::string& name) const {
   const int id = mj_name2id(model.get(), kind, name.c_str());
-  if (id < 0) throw InputError("the hand's model has no \"" + name + "\"");
+  if (id < 0) throw InputError("hand model: \"" + name + "\" not found");
   return id;
 }
 
@@ -114,7 +114,7 @@ void HandScene::FindParts(const kinematics::HandFile& file) {
     }
     state.tip_body = Id(mjOBJ_BODY, finger.tip.body);
     if (model->body_geomnum[state.tip_body] == 0) {
-      throw InputError(file.description.model + ": the body " + finger.tip.body + " has no geom");
+      throw InputError(file.description.model + ": body " + finger.tip.body + ": geom not found");
     }
     state.tip_geom = model->body_geomadr[state.tip_body];
   }

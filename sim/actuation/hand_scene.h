@@ -46,7 +46,7 @@ struct HandScene {
   kinematics::ModelPtr model;
   kinematics::DataPtr data;  ///< data of the model, in its reference configuration
   Eigen::Isometry3d palm = Eigen::Isometry3d::Identity();  ///< pose in the engine's world
-  Eigen::Vector3d centroid;                                ///< of the object, in its frame
+  Eigen::Vector3d centroid;                                ///< centroid of the object, in its frame
   int object_body = 0, object_geom = 0, object_qpos = 0;
   std::vector<Finger> fingers;
   std::vector<int> frozen;  ///< frozen joints

@@ -438,7 +438,7 @@ class SceneWriter {
   bool own_tips_;
   HandWorld world_;
   kinematics::ModelText text_;
-  std::vector<ShellPiece> shell_;  ///< of a nonconvex object
+  std::vector<ShellPiece> shell_;  ///< convex pieces of a nonconvex object
   std::vector<std::string> tips_;  ///< names of the geoms that touch the object
 };
 

@@ -11,7 +11,7 @@ namespace regrasp::sim {
 namespace {
 
 [[noreturn]] void Refuse(const std::string& what) {
-  throw InputError("engine ode: " + what + ", which is not supported");
+  throw InputError("engine ode: " + what + " not supported");
 }
 
 /// Refuse couplings and forces of tendons.
@@ -20,16 +20,16 @@ void CheckTendons(const HandScene& scene) {
   for (const kinematics::Finger& finger : scene.hand.fingers) {
     for (const kinematics::Joint& joint : finger.joints) {
       if (!joint.follows && finger.drives == std::ssize(finger.joints)) continue;
-      Refuse("the joints of finger " + finger.name + " are coupled");
+      Refuse("coupled joints of finger " + finger.name);
     }
   }
   for (int i = 0; i < model.neq; ++i) {
-    if (model.eq_active[i] != 0) Refuse("the hand's model has equality constraints");
+    if (model.eq_active[i] != 0) Refuse("equality constraints of the hand model");
   }
   for (int i = 0; i < model.ntendon; ++i) {
     if (model.tendon_stiffness[i] != 0 || model.tendon_damping[i] != 0 ||
         model.tendon_frictionloss[i] != 0 || model.tendon_limited[i] != 0) {
-      Refuse("the hand's model has tendons with stiffness, damping, friction or limits");
+      Refuse("tendons with stiffness, damping, friction or limits");
     }
   }
 }
@@ -52,8 +52,7 @@ void AddActuator(const mjModel& model, const DriveActuator& found, int joint, Jo
   const bool on_joint = kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT;
   if (!on_joint || model.actuator_trnid[std::ptrdiff_t{2} * a] != joint ||
       model.actuator_dyntype[a] != mjDYN_NONE) {
-    Refuse("the actuator " + kinematics::ActuatorName(model, a) +
-           " of the hand's model does not act on one joint, or has a state");
+    Refuse("actuator " + kinematics::ActuatorName(model, a) + " with a state or several joints");
   }
   const mjtNum* bias = model.actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;
   drive.actuator = a;

@@ -36,9 +36,8 @@ int JointOf(const HandScene& scene, int body) {
     for (const int joint : finger.joints) {
       if (scene.model->jnt_bodyid[joint] != body) continue;
       if (found >= 0) {
-        throw InputError(std::string("engine ode: the body ") +
-                         mj_id2name(scene.model.get(), mjOBJ_BODY, body) +
-                         " of the hand's model has several joints, which is not supported");
+        throw InputError(std::string("engine ode: several joints of body ") +
+                         mj_id2name(scene.model.get(), mjOBJ_BODY, body) + " not supported");
       }
       found = joint;
     }
@@ -56,9 +55,8 @@ LinkTree::LinkTree(const HandScene& scene)
   }
   for (const Link& link : links_) {
     if (link.mass > 0) continue;
-    throw InputError(std::string("engine ode: the link at joint ") +
-                     mj_id2name(scene.model.get(), mjOBJ_JOINT, link.joint) +
-                     " of the hand's model has no mass");
+    throw InputError(std::string("engine ode: the mass of the link at joint ") +
+                     mj_id2name(scene.model.get(), mjOBJ_JOINT, link.joint) + " must be positive");
   }
   for (const HandScene::Finger& finger : scene.fingers) {
     tips_.push_back({link_of_body_[finger.tip_body], in_link_[finger.tip_body]});

@@ -27,7 +27,7 @@ class LinkTree {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< unit vector in the link's frame
     double rest = 0;                                   ///< angle in the reference configuration
     double mass = 0;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of mass, in the link's frame
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< centre of mass in the link's frame
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about `centre`, in the link's frame
   };
   /// A fingertip's body: the link that it is part of, and its pose in the link's frame.

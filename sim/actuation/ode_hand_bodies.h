@@ -37,32 +37,32 @@ struct OdeHandBodies {
   /// Steps of ODE in a time step of the replay: links move on arcs, and a shorter step follows
   /// them more closely.
   static constexpr int kSubsteps = 2;
-  double timestep = scene.options.physics.timestep_s / kSubsteps;  ///< of ODE
+  double timestep = scene.options.physics.timestep_s / kSubsteps;  ///< time step of ODE
 
   OdeWorld world = MakeOdeWorld();
   OdeJointsPtr hinges{dJointGroupCreate(0)};
   OdeJointsPtr contact_joints{dJointGroupCreate(0)};
   dBodyID object = nullptr;
-  std::vector<dBodyID> bodies;   ///< by link
-  std::vector<dJointID> motors;  ///< by link
-  double mass = 0;               ///< of the object
+  std::vector<dBodyID> bodies;   ///< ODE body or joint, by link
+  std::vector<dJointID> motors;  ///< ODE body or joint, by link
+  double mass = 0;               ///< mass of the object
 
   // State.
   double time = 0;
-  Eigen::VectorXd angles, speeds;  ///< of the joints, by link
-  std::vector<Motion> motions;     ///< of the links' centres
+  Eigen::VectorXd angles, speeds;  ///< joint state, by link
+  std::vector<Motion> motions;     ///< motions of the links' centres
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   Motion object_motion;
   std::vector<Touch> touches;  ///< contacts in the last step
 
   // Inputs.
-  std::vector<double> controls;  ///< by actuator
+  std::vector<double> controls;  ///< controls, by actuator
   Eigen::Vector3d load = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   bool pinned = false;
 
   // Results.
-  std::vector<Eigen::Isometry3d> poses;  ///< of the links
+  std::vector<Eigen::Isometry3d> poses;  ///< poses of the links
   Eigen::VectorXd forces;                ///< forces of actuators, by link
   long steps = 0, solutions = 0;
 

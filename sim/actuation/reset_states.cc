@@ -362,7 +362,7 @@ Found FindState(RandomStream random, int most_simulated, Worker& worker) {
   Found found;
   for (int i = 0; i < most_simulated; ++i) {
     const auto rest = worker.draw(random);
-    if (!rest) throw NoState{"no random grasp within reach of the hand is force closure"};
+    if (!rest) throw NoState{"random grasps within reach of the hand are not force closure"};
     const auto grasp_force = worker.states.GraspForceOf(rest->state, rest->grasp);
     if (!grasp_force) {
       ++found.unbalanced;

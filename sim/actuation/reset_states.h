@@ -34,8 +34,8 @@ struct ResetState {
     Eigen::Vector3d force_O = Eigen::Vector3d::Zero();
   };
 
-  std::vector<double> joints;    ///< as HandWorld::joint_angles
-  std::vector<double> controls;  ///< as HandWorld::controls
+  std::vector<double> joints;    ///< joint angles, as in HandWorld::joint_angles
+  std::vector<double> controls;  ///< controls, as in HandWorld::controls
   /// Pose of the object's frame in the palm's frame, metres and w, x, y, z.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector4d quaternion = Eigen::Vector4d::UnitX();
@@ -134,7 +134,7 @@ struct DrawnStatesOptions {
 struct DrawnStates {
   std::vector<ResetState> states;               ///< drawn states; empty if `message` is not
   std::map<plan::Reason, std::int64_t> fallen;  ///< number of grasps that were not held, by reason
-  /// number of grasps without balancing forces (GraspForceOf), not simulated
+  /// Number of grasps without balancing forces (GraspForceOf), not simulated
   std::int64_t unbalanced = 0;
   std::string message;  ///< reason why drawing stopped; empty if it completed
   // Properties of the simulated world.

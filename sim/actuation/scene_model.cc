@@ -10,7 +10,7 @@ namespace {
 /// Ratio of frictional to normal constraint impedance (impratio), so that sticking contacts creep
 /// little.
 constexpr double kFrictionHardness = 100;
-/// The same of TipContactModel::kDefault, as in the hands of MuJoCo Menagerie.
+/// Ratio of TipContactModel::kDefault, as in the hands of MuJoCo Menagerie.
 constexpr double kDefaultFrictionHardness = 10;
 /// Armature of frozen joints, kg m², and their damping, N·m·s/rad. A torque of 1 N·m moves such a
 /// joint by less than 1e-4 rad in a minute. The armature alone would let it fall by 1.8 rad.

@@ -24,7 +24,7 @@ using kinematics::VectorAt;
 /// Largest depth that counts for the contact force, metres: five times that of a static grasp.
 /// Fingertip geometry can overlap the object more deeply than its sphere, and must not be ejected.
 constexpr double kDeepestContact = 3e-4;
-/// The same with the softer TipContactModel::kDefault, in which static grasps are up to 2 mm deep.
+/// Largest depth with TipContactModel::kDefault, whose static grasps are up to 2 mm deep.
 constexpr double kDeepestDefaultContact = 4e-3;
 
 /// Return two unit vectors that are perpendicular to a unit vector and to each other.
@@ -235,7 +235,7 @@ std::vector<TipShapes> TipShapesOf(const kinematics::HandFile& file, TipShape ti
     }
     tips.push_back(GeometryOf(*file.compiled->model, ball.body));
     if (!tips.back().empty()) continue;
-    throw InputError(file.description.model + ": the tip link " + ball.body + " of " +
+    throw InputError(file.description.model + ": fingertip link " + ball.body + " of " +
                      FingerText(file.hand, finger) +
                      " has no collision geometry that could touch the object");
   }

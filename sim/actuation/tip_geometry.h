@@ -26,7 +26,7 @@ namespace regrasp::sim {
 inline constexpr double kTipContactTime = 5e-3;
 /// Impedances, width of the transition between them in metres, and its shape (solimp).
 inline constexpr std::array<double, 5> kTipImpedance = {0.95, 0.99, 0.0001, 0.5, 2};
-/// The same of TipContactModel::kDefault: the defaults of MuJoCo.
+/// Contact parameters of TipContactModel::kDefault: the defaults of MuJoCo.
 inline constexpr double kDefaultTipContactTime = 2e-2;
 inline constexpr std::array<double, 5> kDefaultTipImpedance = {0.9, 0.95, 0.001, 0.5, 2};
 

@@ -180,7 +180,7 @@ MaybeFault Checker::CheckShape(const HandState& state) const {
 }
 
 MaybeFault Checker::CheckContinues(const plan::HandPath& path) {
-  if (path.empty()) return NoSuchPath("the hand has no path in this step", state_);
+  if (path.empty()) return NoSuchPath("path of the hand not found in this step", state_);
   for (const HandState& state : path) {
     if (auto fault = CheckShape(state)) return fault;
   }
@@ -399,7 +399,8 @@ MaybeFault Checker::CheckSlide(const NamedPath& path, const plan::FingerGrasp& f
             plan::GraspBetween(from, to,
                                static_cast<double>(i) / static_cast<double>(states.size() - 1))};
   };
-  if (states.size() < 2) return NoSuchPath(path.name + " has one state", state_);
+  if (states.size() < 2)
+    return NoSuchPath(path.name + " must have at least two states, found one", state_);
   for (std::size_t i = 1; i < states.size(); ++i) {
     const Instant now = at(i);
     if (auto fault = CheckStaysPut(now.state, states[i - 1], "slide")) return fault;
@@ -413,7 +414,7 @@ MaybeFault Checker::CheckSlide(const NamedPath& path, const plan::FingerGrasp& f
 }
 
 MaybeFault Checker::CheckAlign(const plan::Align& align) {
-  if (!align.motion) return NoSuchPath("the hand has no path in this step", state_);
+  if (!align.motion) return NoSuchPath("path of the hand not found in this step", state_);
   const std::size_t ways = align.waypoints.size() - 1;
   if (align.motion->size() != ways) {
     return NoSuchPath("the hand has " + std::to_string(align.motion->size()) +
@@ -429,7 +430,7 @@ MaybeFault Checker::CheckAlign(const plan::Align& align) {
 }
 
 MaybeFault Checker::CheckSwitch(const plan::Switch& change) {
-  if (!change.motion) return NoSuchPath("the hand has no path in this step", state_);
+  if (!change.motion) return NoSuchPath("path of the hand not found in this step", state_);
   for (const plan::FingerContact& placed : change.place) {
     if (placed.finger >= finger_count()) return NoSuchFinger(placed.finger, state_);
   }

@@ -80,11 +80,11 @@ HandFinding Collision(const HandBody& body, const HandState& state, const std::v
   return finding;
 }
 
-/// Return "a comes within 0.3 mm of b" or "a is 3.2 mm inside b".
+/// Return "a is 0.3 mm from b" or "a is 3.2 mm inside b".
 std::string NearText(const std::string& a, const std::string& b, double gap,
                      const LimitText& text) {
   if (gap < 0) return a + " is " + text.value + " inside " + b;
-  return a + " comes within " + text.value + " of " + b;
+  return a + " is " + text.value + " from " + b;
 }
 
 /// Return the texts of a gap and of the required gap, metres; negative values are depths.
@@ -168,7 +168,8 @@ HandFinding NoSuchPath(const std::string& what, const HandState& state) {
 }
 
 HandFinding NoSuchFinger(FingerIndex finger, const HandState& state) {
-  HandFinding finding = NoSuchPath("the hand has no finger " + std::to_string(finger), state);
+  HandFinding finding =
+      NoSuchPath("finger " + std::to_string(finger) + " not found in the hand", state);
   finding.reason = Reason::kTipOffContact;
   finding.fault.fingers = {finger};
   return finding;
@@ -225,8 +226,8 @@ HandFinding JointOutside(HandBody& body, const HandState& state, FingerIndex fin
                                 text.value + ", limit " + text.limit);
   finding.detail = "joint " + limits.name + " of " + FingerText(body.hand(), finger) + " is at " +
                    text.value + After(when) + ": " + off.value + (below ? " below" : " beyond") +
-                   "; its limits are " + (below ? text.limit : DegreesText(limits.lower)) +
-                   " and " + (below ? DegreesText(limits.upper) : text.limit);
+                   ", limits " + (below ? text.limit : DegreesText(limits.lower)) + " and " +
+                   (below ? DegreesText(limits.upper) : text.limit);
   return finding;
 }
 
@@ -252,7 +253,7 @@ HandFinding TipOff(HandBody& body, const HandState& state, FingerIndex finger,
   const double off = (found - expected).norm();
   const auto [value, limit] = FormatLengthWithLimit(off, tolerance);
   HandFinding finding{Reason::kTipOffContact, "", {.fingers = {finger}}};
-  finding.detail = "the tip of " + FingerText(body.hand(), finger) + " is " + value +
+  finding.detail = "the fingertip of " + FingerText(body.hand(), finger) + " is " + value +
                    " from its contact" + After(when) + ", limit " + limit;
   plan::HandFaultPlace& place = finding.fault.hand.emplace();
   place.state = state;
@@ -287,7 +288,7 @@ HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, d
   HandFinding finding = Collision(body, state, {a, b}, nearness);
   const LimitText text = GapText(nearness.gap, clearance);
   finding.detail = NearText(PartText(body, a), PartText(body, b), nearness.gap, text) +
-                   After(when) + "; the clearance is " + text.limit;
+                   After(when) + ", required clearance " + text.limit;
   return finding;
 }
 
@@ -303,9 +304,8 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
   HandFinding finding = Collision(body, state, {part}, nearness);
   const LimitText text = GapText(nearness.gap, needed);
   finding.detail = NearText(PartText(body, part), "the object", nearness.gap, text) + After(when) +
-                   "; " +
-                   (needed < 0 ? "a tip that touches may be " + text.limit + " inside"
-                               : "the clearance is " + text.limit);
+                   (needed < 0 ? ", limit for a touching fingertip " : ", required clearance ") +
+                   text.limit;
   return finding;
 }
 

@@ -68,7 +68,7 @@ std::string OdeVersion() { return dODE_VERSION; }
 
 struct OdeEngine::Impl {
   EngineUnits units;
-  Scene scene;  ///< in the engine's units
+  Scene scene;  ///< scene in the engine's units
   double mu = 0;
   std::vector<std::vector<PatchPrism>> sites;  ///< prisms [site]
 
@@ -84,7 +84,7 @@ struct OdeEngine::Impl {
   Vector3d spin = Vector3d::Zero();
   std::vector<Motion> tips;
   std::map<PatchIndex, Vector3d> forces;  ///< contact forces of the last step, on the object
-  std::vector<TipForce> tip_forces;       ///< their sums per finger, in newtons; without torques
+  std::vector<TipForce> tip_forces;       ///< sums of forces per finger, newtons; without torques
 
   // Inputs.
   std::vector<Vector3d> targets;

@@ -173,7 +173,7 @@ class ReplayFault {
       const auto least = SmallestMargin(*margins);
       if (!least || *least >= kConeReached) continue;
       const FingerIndex finger = FingerOfSmallestMargin(*margins);
-      return ConeReached("the force of " + Finger(finger) + " reached its friction cone " + when,
+      return ConeReached("the force of " + Finger(finger) + " reaches its friction cone " + when,
                          finger, *least);
     }
     return std::nullopt;
@@ -191,13 +191,13 @@ Disagreement ExplainFixed(const ExaminedStep& step) {
   if (least && *least < kConeReached) {
     const FingerIndex finger = FingerOfSmallestMargin(fixed.disturbance_margins);
     return ConeReached("with the grasp force of the static grasp the force of " + Finger(finger) +
-                           " reached its friction cone",
+                           " reaches its friction cone",
                        finger, *least);
   }
   if (Finding edge = ReplayFault(step).CheckEdge()) return *edge;
   return {.cause = Cause::kUnknown,
-          .text = "no cause found: the object yielded by " + FormatLength(fixed.give_m) +
-                  " on the servos, and no force reached its cone",
+          .text = "no cause found: the object yields by " + FormatLength(fixed.give_m) +
+                  " on the servos, and no force reaches its cone",
           .values = {{"give_m", fixed.give_m}}};
 }
 
@@ -221,7 +221,7 @@ Disagreement ExplainAnalysis(const ExaminedStep& step) {
   const double required = step.check.required->upper;
   if (required <= friction_angle) {
     return {.cause = Cause::kNotSimulated,
-            .text = "the replay uses the normals of facets, not of contact patches"};
+            .text = "the replay uses the normals of triangles, not of contact patches"};
   }
   const LimitText text = FormatRequiredDegrees(Degrees(required), Degrees(friction_angle));
   const bool near = step.settings.mu >= kNearCritical * std::tan(required);
@@ -278,7 +278,7 @@ std::optional<Disagreement> ExplainEngines(const ExaminedStep& step) {
                            .text = std::string(mujoco ? "ODE" : "MuJoCo") + " did not converge: " +
                                    (mujoco ? step.replay.ode->detail : step.replay.detail)});
   }
-  if (step.settings.hand) return Named(between, {.text = "no likely cause is known"});
+  if (step.settings.hand) return Named(between, {.text = "likely cause: unknown"});
   if (!mujoco) return Named(between, ReplayFault(step).Explain());
   StepReplay failed = step.replay;
   static_cast<StepMotion&>(failed) = *step.replay.ode;

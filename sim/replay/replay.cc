@@ -69,8 +69,17 @@ StepMotion Unstable(const MotionMonitor& monitor, const UnstableError& error) {
   const std::string why = error.what();
   // The engine's first sentence contains the reason.
   result.detail =
-      "the simulation became unstable " + monitor.phase() + ": " + why.substr(0, why.find(". "));
+      "the simulation diverges " + monitor.phase() + ": " + why.substr(0, why.find(". "));
   return result;
+}
+
+/// Return the phase of the motion of an entry in messages.
+std::string PhaseOf(const plan::Plan& plan, plan::EntryIndex index) {
+  if (index == 0) return "while the fingers grasp";
+  const plan::Step& step = plan::StepOf(plan, index);
+  return std::holds_alternative<plan::Align>(step)
+             ? "during the sliding step"
+             : std::string("during the ") + plan::StepKind(step);
 }
 
 /// Return the fault that the monitor found, with the present state of the world.
@@ -175,11 +184,9 @@ StepReplay ReplayStep(ReplayWorld& world, const object::Object& object, const pl
   RestoreRoles(world);
   world.StartMonitoring();
   try {
-    world.monitor().SetPhase(index == 0 ? "as the fingers took hold"
-                                        : std::string("during the ") +
-                                              plan::StepKind(plan::StepOf(plan, index)));
+    world.monitor().SetPhase(PhaseOf(plan, index));
     Perform(world, object, plan, index, result);
-    world.monitor().SetPhase("once the fingers stood still");
+    world.monitor().SetPhase("after the fingers stop");
     ComeToRest(world);
     result.motion_margins = world.monitor().margins();
     ExamineRest(world, object, plan.scale, result);

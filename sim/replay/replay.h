@@ -21,10 +21,10 @@ struct StepMotion : Violation {
   double moved_m = 0;                 ///< largest |Δx| + R|Δrotation|, which the tolerance limits
   double give_m = 0;                  ///< compliance displacement: the same in the fixed response
   double slip_m = 0;                  ///< largest slide of a holding fingertip along the surface
-  bool contact_lost = false;          ///< a holding finger left the surface
+  bool contact_lost = false;          ///< whether a holding finger left the surface
   FingerMargins disturbance_margins;  ///< smallest friction margins in the disturbance test
   /// The static grasp after the step, or the state under the disturbance that the grasp does not
-  /// withstand. Without fingers if the simulation became unstable.
+  /// withstand. Without fingers if the simulation diverges.
   plan::Snapshot snapshot;
 };
 
@@ -46,7 +46,7 @@ struct StepReplay : StepMotion {
   /// Measurements of a replay by a hand. If set, displacement, rotation and motion are relative to
   /// the planned pose.
   std::optional<HandMeasures> hand = std::nullopt;
-  std::optional<HandMeasures> ode_hand = std::nullopt;  ///< the same in `ode`
+  std::optional<HandMeasures> ode_hand = std::nullopt;  ///< hand measures in `ode`
 };
 
 struct ReplayResult {

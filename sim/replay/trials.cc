@@ -136,10 +136,11 @@ plan::Plan AddContactNoise(const object::Object& object, const plan::Plan& plan,
 namespace {
 
 void CheckOptions(const TrialOptions& trials) {
-  if (trials.count < 1) throw std::invalid_argument("RunTrials: no trials");
+  if (trials.count < 1)
+    throw std::invalid_argument("RunTrials: the number of trials must be positive");
   for (const double size : {trials.position_noise, trials.friction_error, trials.mass_error}) {
     if (!(size >= 0 && size <= kMostError)) {
-      throw std::invalid_argument("RunTrials: an error is not in [0, 1]");
+      throw std::invalid_argument("RunTrials: errors must be in [0, 1]");
     }
   }
 }

@@ -12,7 +12,7 @@ namespace regrasp::sim {
 
 /// Surface of the simulated object for rendering.
 struct VisibleSurface {
-  std::vector<Eigen::Vector3d> vertices;      ///< in the object's own frame and unit
+  std::vector<Eigen::Vector3d> vertices;      ///< vertices in the object's frame and unit
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 };
 

@@ -53,8 +53,8 @@ struct ResistedWrench {
 /// Deviations from the plan and loads in one step of a replay by a hand.
 struct HandMeasures {
   double off_m = 0;       ///< largest distance of the object's centroid from the plan
-  double off_rad = 0;     ///< the same of its orientation
-  double rest_off_m = 0;  ///< in the static grasp after the step
+  double off_rad = 0;     ///< rotation off the planned orientation
+  double rest_off_m = 0;  ///< deviation in the static grasp after the step
   double rest_off_rad = 0;
   double slip_m = 0;           ///< largest slide of a holding fingertip
   double roll_m = 0;           ///< largest travel of a contact on the object while its finger holds

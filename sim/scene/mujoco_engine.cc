@@ -29,7 +29,7 @@ ModelPtr LoadModel(const std::string& mjcf) {
   files.Replace(kFileName, mjcf);
   std::array<char, 1000> error{};
   ModelPtr model(mj_loadXML(kFileName, files.get(), error.data(), static_cast<int>(error.size())));
-  if (!model) throw EnvironmentError(std::string("MuJoCo refuses the scene: ") + error.data());
+  if (!model) throw EnvironmentError(std::string("scene rejected by MuJoCo: ") + error.data());
   return model;
 }
 
@@ -68,7 +68,7 @@ struct MujocoEngine::Impl {
 MujocoEngine::Impl::Impl(const std::string& mjcf, int finger_count, const EngineUnits& given)
     : units(given), model(LoadModel(mjcf)) {
   data.reset(mj_makeData(model.get()));
-  if (!data) throw EnvironmentError("MuJoCo has no memory for the scene");
+  if (!data) throw EnvironmentError("MuJoCo: not enough memory for the scene");
   object = mj_name2id(model.get(), mjOBJ_BODY, "object");
   finger_of_geom.resize(model->ngeom);
   tip_forces.resize(finger_count);

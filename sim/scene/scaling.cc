@@ -73,9 +73,9 @@ static_assert(ReplayOptions().density_kg_m3 == object::kUsualDensity);
 void CheckRange(const char* what, double value, double least, double largest, const char* unit,
                 const char* look_at = "--scale and --mass") {
   if (value >= least && value <= largest) return;
-  throw InputError("replay: the object's " + std::string(what) + " of " + FormatShort(value) + " " +
-                   unit + " is outside " + FormatShort(least) + " to " + FormatShort(largest) +
-                   " " + unit + " (check " + look_at + ")");
+  throw InputError("replay: " + std::string(what) + " of the object: expected " +
+                   FormatShort(least) + " to " + FormatShort(largest) + " " + unit + ", found " +
+                   FormatShort(value) + " " + unit + "; help: check " + look_at);
 }
 
 void CheckBody(const object::Object& object, const ReplayOptions& options,

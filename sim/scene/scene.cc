@@ -207,7 +207,7 @@ std::optional<plan::Obstacle> FindUnreachable(const object::Object& object,
     if (clearance >= least) continue;
     return plan::Obstacle{
         "finger " + std::to_string(held.finger) +
-            " does not fit at its contact: the corner has room for a fingertip radius of at most " +
+            " does not fit at its contact in a corner: largest fingertip radius " +
             FormatShort(clearance),
         {.fingers = {held.finger}, .found = held.contact}};
   }

@@ -192,8 +192,8 @@ std::string CollisionOptions(double tolerance_m) {
 
 /// Return a remark on what a scene for all versions omits.
 std::string CollisionRemark(const std::string& options) {
-  return "Where a patch of contact is a mesh, not a box, the default collision tolerance misses "
-         "most contacts 1e-7 m deep: add" +
+  return "If a contact patch is a mesh instead of a box, the default collision tolerance misses "
+         "most contacts 1e-7 m deep. Add" +
          options + " to the option, from MuJoCo 3.2.3 on with ccd_ instead of mpr_.";
 }
 

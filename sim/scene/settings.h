@@ -33,14 +33,14 @@ struct HandSensing {
   /// Constant errors of the joint angles, by finger: measured minus true angles of the independent
   /// joints, radians. They are added to errors by `joint_bias_rad`. Empty: none.
   std::vector<kinematics::JointConfiguration> joint_offsets = {};
-  std::uint64_t seed = 0;  ///< of all errors
+  std::uint64_t seed = 0;  ///< seed of all errors
 
   bool operator==(const HandSensing&) const = default;
 };
 
 /// Model of the contact between a fingertip and the object.
 enum class TipContactModel {
-  kStiff,    ///< that of the replay (docs/hand_replay.md)
+  kStiff,    ///< contact model of the replay (docs/hand_replay.md)
   kDefault,  ///< MuJoCo's default `solref` and `solimp`, with `impratio` 10 as in MuJoCo Menagerie
 };
 
@@ -122,16 +122,16 @@ enum class TipShape {
 
 /// Limits on deviations in a replay by a hand.
 struct HandTolerance {
-  double length_m = 2e-3;     ///< of the object's centroid from the plan
-  double angle_rad = 0.0873;  ///< of its orientation: 5°
-  double at_rest = 0.5;       ///< share of both that is allowed in a static grasp
-  double slip_m = 1e-3;       ///< of a holding fingertip along the surface
-  double lost_s = 0.02;       ///< of a holding fingertip without a force
-  double limit_s = 0.05;      ///< of an actuator at the limit of its force
-  double joint_rad = 0.0175;  ///< of a joint outside its range, or off its coupling: 1°
-  double depth_m = 1e-3;      ///< of a fingertip in the object
-  double frozen_m = 1e-3;  ///< of the centroid's motion in a static grasp under constant controls
-  double frozen_rad = 0.0437;  ///< of the object's rotation in it: 2.5°
+  double length_m = 2e-3;      ///< distance of the object's centroid from the plan
+  double angle_rad = 0.0873;   ///< rotation of the object from the plan: 5°
+  double at_rest = 0.5;        ///< share of both that is allowed in a static grasp
+  double slip_m = 1e-3;        ///< slip of a holding fingertip along the surface
+  double lost_s = 0.02;        ///< time of a holding fingertip without a force
+  double limit_s = 0.05;       ///< time of an actuator at its force limit
+  double joint_rad = 0.0175;   ///< deviation of a joint from its range or coupling: 1°
+  double depth_m = 1e-3;       ///< depth of a fingertip in the object
+  double frozen_m = 1e-3;      ///< motion of the centroid under constant controls
+  double frozen_rad = 0.0437;  ///< rotation of the object under constant controls: 2.5°
 };
 
 /// Limits of the hand model for one independent joint, on which a verdict depends.
@@ -152,13 +152,13 @@ struct HandReplaySettings {
   HandSensing sensing;
   HandPhysics physics;
   TipShape tip = TipShape::kBall;
-  double least_stiffness = 0;    ///< of the servos of joints, N m / rad
-  double largest_stiffness = 0;  ///< the same
+  double least_stiffness = 0;    ///< smallest stiffness of the joint servos, N m / rad
+  double largest_stiffness = 0;  ///< largest stiffness of the joint servos, N m / rad
   bool derived_servos = false;   ///< whether some actuators were converted to servos
   /// Least stiffness in the hand's model of the servos that the controller stiffens, N m / rad.
   /// None if it stiffens none.
   std::optional<double> soft_stiffness = std::nullopt;
-  std::vector<DriveLimits> limits = {};  ///< by finger and independent joint
+  std::vector<DriveLimits> limits = {};  ///< limits, by finger and independent joint
 };
 
 /// Values with which the replay ran.
@@ -188,7 +188,7 @@ struct ReplaySettings {
   double friction_factor = 1;    ///< simulated friction over `mu`
   double mass_factor = 1;        ///< simulated mass of the object over `mass_kg`
   double patch_size_m = 0;       ///< half the side of a contact patch
-  double patch_thickness_m = 0;  ///< of the prism under a contact patch
+  double patch_thickness_m = 0;  ///< thickness of the prism under a contact patch
   /// Set for a replay by a hand; values of point fingers are then 0.
   std::optional<HandReplaySettings> hand = std::nullopt;
 };

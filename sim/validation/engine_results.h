@@ -14,7 +14,7 @@ struct EngineResult {
   plan::EntryIndex failed;  ///< first step that fails; not valid if none does
   std::string detail;       ///< description of the violation
   double off_m = 0;         ///< largest distance of the object's centroid from the plan
-  double off_rad = 0;       ///< the same of its orientation
+  double off_rad = 0;       ///< largest rotation of the object from the plan
   double margin = 1;        ///< smallest tolerance margin of all steps (sim::ToleranceMargin)
 };
 

@@ -26,7 +26,7 @@ void ReportStage(const ValidationObserver& observer, const std::string& text) {
 const object::Polyhedron& SolidOf(const ValidationRequest& request) {
   const auto* solid = dynamic_cast<const object::Polyhedron*>(&request.object);
   if (solid == nullptr || request.is_grasp) {
-    throw InputError("validation with a hand: the object must be a solid, and requires a plan");
+    throw InputError("validation with a hand: requires a solid and a plan");
   }
   return *solid;
 }
@@ -134,7 +134,7 @@ void SkipAfterFailure(std::vector<ReportStep>& steps) {
     step.skipped = failed || step.check.skipped;
     failed = failed || step.reason() != plan::Reason::kNone;
     // A step passes only if it was replayed.
-    if (!failed && !step.replay) throw std::logic_error("the replay left out a step");
+    if (!failed && !step.replay) throw std::logic_error("the replay omits a step");
   }
 }
 

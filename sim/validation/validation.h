@@ -55,7 +55,7 @@ struct ValidationRequest {
 struct ValidationObserver {
   /// Called with a line of text: "checking the plan", "replay: 3 of 7 steps".
   std::function<void(const std::string&)> on_stage = {};
-  sim::ReplayObserver replay = {};  ///< for the replay without noise
+  sim::ReplayObserver replay = {};  ///< observer of the replay without noise
 };
 
 /// The values that a validation runs with, resolved once from the request.

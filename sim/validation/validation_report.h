@@ -30,11 +30,11 @@ struct ReportStep {
   /// if it gives none or the step fails the analytic check.
   std::optional<motion::ProofVerdict> certificate;
   std::optional<sim::StepReplay> replay;  ///< nullopt if the step fails the check or is skipped
-  bool skipped = false;                   ///< an earlier step failed in the check or the replay
+  bool skipped = false;                   ///< whether an earlier step failed
   std::optional<sim::NeedOfFinger> weakest_finger;  ///< nullopt if the step fails the check
   std::optional<sim::Disagreement> disagreement;    ///< between the check and the replay protocols
   std::optional<sim::Disagreement> engines;         ///< between two engines, if both ran
-  std::optional<certificate::EntryProof> proof;     ///< with ValidationOptions::certificates
+  std::optional<certificate::EntryProof> proof;     ///< proof, with ValidationOptions::certificates
   std::string frame;                                ///< file name of the image; empty: none
 
   /// Return the reason of the analytic check or, if it passes, of the replay.
@@ -71,7 +71,7 @@ struct RunRecord {
 /// The result of a validation; report.json contains the same data.
 struct Report {
   std::string object_file, object_sha256;
-  std::string plan_file, plan_sha256;  ///< of the plan or the grasp
+  std::string plan_file, plan_sha256;  ///< file and SHA-256 of the plan or the grasp
   std::string planner;
   double scale = 1;  ///< metres per unit of length of the object
   int dimension = 3;

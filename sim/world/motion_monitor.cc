@@ -155,22 +155,22 @@ FingerIndex MotionMonitor::finger() const {
 
 std::string MotionMonitor::MotionText() const {
   const double limit = settings_.tolerance * settings_.diameter_m;
-  return "moved by " + FormatLengthWithLimit(displacement_, limit).value + " and turned by " +
+  return "moves " + FormatLengthWithLimit(displacement_, limit).value + " and rotates " +
          FormatShort(Degrees(rotation_), kAngleDigits) + "°";
 }
 
 std::string MotionMonitor::detail() const {
   switch (reason()) {
     case plan::Reason::kContactLost:
-      return Name(lost_finger_) + " moved " +
+      return Name(lost_finger_) + " is " +
              FormatLengthWithLimit(gap_now_, kLostGap * settings_.diameter_m).value +
              " off the surface " + *lost_;
     case plan::Reason::kSlipped:
-      return Name(slipped_finger_) + " slipped by " +
+      return Name(slipped_finger_) + " slips " +
              FormatLengthWithLimit(slip_now_, settings_.tolerance * settings_.diameter_m).value +
              " " + *slipped_;
     case plan::Reason::kObjectMoved:
-      return unrest_ ? "the object did not come to rest " + *object_moved_ + ": it " + MotionText()
+      return unrest_ ? "the object does not settle " + *object_moved_ + ": it " + MotionText()
                      : "the object " + MotionText() + " " + *object_moved_;
     default:
       return {};

@@ -28,8 +28,8 @@ std::unique_ptr<Engine> MakeEngine(const Scene& scene, const object::Object& bod
   if (scene.settings.engine == EngineChoice::kOde) {
     if (scene.settings.torsion_m != 0) {
       throw InputError(
-          "replay in ODE: its contacts are hard points, and the plan is for soft fingers; --engine "
-          "mujoco has them");
+          "--engine ode: soft-finger contacts not supported, expected hard contacts; help: "
+          "--engine mujoco");
     }
     return std::make_unique<OdeEngine>(scene, body);
   }

@@ -185,12 +185,12 @@ class Animation(ProgramCase):
     def test_a_terminal_is_told_how_many_frames_are_drawn(self):
         done, shown = self.run_on_terminal(*self.of_grasp("--animate", *SMALL))
         self.assertEqual(done.returncode, 0, shown)
-        count = int(re.findall(r"moving picture: frame 1 of (\d+)", shown)[0])
+        count = int(re.findall(r"drawing the animation: frame 1 of (\d+)", shown)[0])
         self.assertGreater(count, 8)
         self.assert_stages(shown, "reading ", "drawing frames: frame 1 of 1",
-                           "drawing the moving picture: frame 1 of",
-                           f"drawing the moving picture: frame {count} of {count}")
-        self.assertEqual(shown.count("drawing the moving picture: frame"), count)
+                           "drawing the animation: frame 1 of",
+                           f"drawing the animation: frame {count} of {count}")
+        self.assertEqual(shown.count("drawing the animation: frame"), count)
 
     def test_the_trajectory_is_the_same_with_an_animation(self):
         self.assert_done(*self.of_grasp("--frames", "none", "--trajectory", "alone.csv"))

@@ -59,7 +59,7 @@ class Gait(ProgramCase):
         for more in (("--hand", self.hand("ring4")), ("--frames", "none",)):
             done, report = self.validate(plan, *more)
             self.assertEqual((done.returncode, report["verdict"]), (0, "pass"), done.stderr)
-        self.assertIn("--hand ring4.json checks its joints", done.stderr)
+        self.assertIn("help: pass --hand ring4.json", done.stderr)
         self.assertEqual([step["kind"] for step in report["steps"]][1:],
                          [step["kind"] for step in plan["steps"]])
 
@@ -355,7 +355,7 @@ class Gait(ProgramCase):
         for changes, words in (
                 ((), None),
                 (((' forcerange="-1.0 1.0"', ""),),
-                 "warning: ring4.json: the largest torque of joints finger0_joint0, "),
+                 "warning: ring4.json: force limit of joints finger0_joint0, "),
                 ((('<position name="finger2_motor3" joint="finger2_joint3"/>', ""),),
                  "warning: ring4.json: joint finger2_joint3 has no actuator: plans are not "
                  "simulated")):
@@ -507,7 +507,7 @@ class Gait(ProgramCase):
     def break_tip_off_contact(self, plan):
         finger = plan["initial"]["contacts"][0]["finger"]
         plan["hand"]["initial"]["joints"][finger][1] += 0.002
-        return 0, (f"the tip of finger {finger}", "µm from its contact", "limit 1 µm")
+        return 0, (f"the fingertip of finger {finger}", "µm from its contact", "limit 1 µm")
 
     def break_joint_limit(self, plan):
         held = [contact["finger"] for contact in plan["initial"]["contacts"]]
@@ -703,7 +703,7 @@ class Gait(ProgramCase):
                               ("--robustness", "none")):
             self.assert_refused(2, f"{option} requires --hand", "--object", self.model("cube.obj"),
                                 "--mu", "0.5", "--output", "plan.json", option, value)
-        self.assert_refused(2, "no planar objects", "--object", self.model("square.wkt"), "--mu",
+        self.assert_refused(2, "found a planar object", "--object", self.model("square.wkt"), "--mu",
                             "0.5", "--output", "plan.json", "--hand", self.hand("ring4"), "--turn",
                             "z,90")
 
@@ -723,7 +723,7 @@ class Gait(ProgramCase):
 
         for words, change in (
                 ("not found", set_tip("nobody")),
-                ("not below the palm", lambda bad: bad.update(palm="finger0_base")),
+                ("must be a descendant of the palm", lambda bad: bad.update(palm="finger0_base")),
                 ("/fingers", lambda bad: bad.update(fingers=[])),
                 ("nowhere.xml", lambda bad: bad.update(model="nowhere.xml"))):
             changed(change)

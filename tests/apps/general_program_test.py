@@ -159,7 +159,7 @@ class General(ProgramCase):
                                ("general", "cube.obj"), ("roadmap", "cube.obj"),
                                ("polyhedron", "cube.obj"), ("polygon", "square.wkt"),
                                ("contour", "square.wkt")):
-            self.assert_refused(1, [model, "time limit reached while reading it"],
+            self.assert_refused(1, [model, "time limit reached while reading"],
                                 *self.arguments(model, 0, "--time-limit", "1e-9", planner=planner))
             done = self.run_program(*self.arguments(model, 0, "--time-limit", "1e300",
                                                     planner=planner))

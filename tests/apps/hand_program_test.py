@@ -98,7 +98,7 @@ class Hand(ProgramCase):
         self.assert_refused(2, ["hand.json: /couplings", "f2", "<mimic>", "found none"],
                             "--model", "hand.json")
         for mimic, words in (('joint="f1" multiplier="1,1"', ["line 1", "multiplier", "1,1"]),
-                             ('joint="f1" multiplier="0"', ["holds joint f2"]),
+                             ('joint="f1" multiplier="0"', ["fixes joint f2"]),
                              ('joint="g1"', ["f2 and g1", "two fingers"]),
                              ('joint="x1"', ["f2", "x1"])):
             self.write("ring.urdf", self.urdf(mimic=f"<mimic {mimic}/>"))
@@ -106,7 +106,7 @@ class Hand(ProgramCase):
             self.assertFalse(os.path.exists(self.path("bad.json")))
 
     def test_an_unknown_strength_is_noted(self):
-        unknown = "joints f1, f2, g1, g2, h1, h2 is unknown and taken as unlimited"
+        unknown = "joints f1, f2, g1, g2, h1, h2 unknown, treated as unlimited"
         self.write("ring.urdf", self.urdf(limit='effort=" 1.5"'))
         done = self.assert_done("--model", "ring.urdf")
         self.assertNotIn("unlimited", done.stdout)
@@ -121,7 +121,7 @@ class Hand(ProgramCase):
                 look=f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>'))
             for model in ("ring.urdf", "./ring.urdf"):
                 done = self.assert_done("--model", model, "--output", "hand.json")
-                self.assertIn("left out, a look: ", done.stdout)
+                self.assertIn("left out, visual only: ", done.stdout)
                 self.assertIn("no such file", done.stdout)
             self.assert_done("--model", "hand.json", "--picture", "hand.png")
 

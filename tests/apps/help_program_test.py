@@ -279,7 +279,7 @@ class Help(ProgramCase):
         rest = ["--object", "no.obj", "--mu", "0.3", "--output", "plan.json"]
         self.program = "plan"
         for words in (["--start", *rest], [*rest, "--start"]):
-            self.assert_refused(2, "--start: a value is required: --start FILE|random", *words)
+            self.assert_refused(2, "--start: requires a value, as in --start FILE|random", *words)
         # A word that only begins like an option is a value.
         self.assert_refused(2, "found \"-1\"", *rest[:2], "--mu", "-1", *rest[4:])
 

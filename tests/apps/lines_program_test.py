@@ -429,7 +429,7 @@ class Lines(ProgramCase):
         for words, shards in (("1 of 2 not found: 2", ["1of2"]),
                               ("2of2: line 1: shard 2 of 2 must be given once, found it in 2of2 too",
                                ["1of2", "2of2", "2of2"]),
-                              ("2of3: line 1: is shard 2 of 3, and of 2 is 1of2", ["1of2", "2of3"]),
+                              ("2of3: line 1: expected a shard of 2, found shard 2 of 3; the first shard is 1of2", ["1of2", "2of3"]),
                               ("cut: line 4: truncated", ["1of2", "cut"]),
                               ("queries.jsonl: line 1: expected a header", ["queries.jsonl"]),
                               ("gone: no such file", ["gone"]),
@@ -447,7 +447,7 @@ class Lines(ProgramCase):
             self.assert_refused(2, f"{option[0]} requires --batch", *one, "--output", "o", *option)
         many = (*one, "--batch", "queries.jsonl")
         for words, rest in (("--shard: expected I/N", ["--output", "o", "--shard", "3/2"]),
-                            ("--output: with --batch a file", ["--output", "-"]),
+                            ("--output: with --batch must be a file", ["--output", "-"]),
                             ("queries.jsonl", ["--output", "queries.jsonl"])):
             self.assert_refused(2, words, *many, *rest)
         self.assert_refused(2, "gone.jsonl: no such file", *one, "--batch", "gone.jsonl", "--output", "o")

@@ -63,7 +63,7 @@ TEST_F(LockedOutputFolderTest, OneWhoComesLaterIsToldWhoHoldsIt) {
     const LockedOutputFolder held(folder_);
     const std::string said = Refusal<EnvironmentError>();
     EXPECT_THAT(said, HasSubstr(folder_.string() + ": process " + process + " on "));
-    EXPECT_THAT(said, HasSubstr("is writing into this folder"));
+    EXPECT_THAT(said, HasSubstr("writes into this folder"));
     EXPECT_EQ(InChild([&] { return LockedOutputFolder(folder_, kAtOnce).left_behind().empty(); }),
               99);
   }
@@ -124,7 +124,7 @@ TEST_F(LockedOutputFolderTest, ChildrenHoldTheFolderUntilTheLastIsGone) {
     fs::create_hard_link(folder_ / kRunFileName, folder_ / "kept");
   }
   fs::rename(folder_ / "kept", folder_ / kRunFileName);
-  EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr("is writing into this folder"));
+  EXPECT_THAT(Refusal<EnvironmentError>(), HasSubstr("writes into this folder"));
   close(ends[1]);
   waitpid(child, nullptr, 0);
   close(ends[0]);

@@ -159,7 +159,7 @@ class PlansOnMeshes(ProgramCase):
             done = self.run_program(*arguments)
             codes.add(done.returncode)
             if done.returncode == 1:
-                self.assertIn("planner roadmap connects no path over", done.stderr)
+                self.assertIn("planner roadmap finds no path over", done.stderr)
                 self.assertIn("500 contact points in 20 clusters", done.stderr)
                 self.assertRegex(done.stderr, r"start (has no link|is linked by)")
                 self.assertRegex(done.stderr, r"goal (has no link|is linked by)")

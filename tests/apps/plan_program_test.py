@@ -136,7 +136,7 @@ class Plan(ProgramCase):
         for planner, taken in (("auto", "general"), ("polygon", "polygon")):
             plan = self.plan(self.polygon_arguments(planner=planner, **options))
             self.assertEqual(plan["planner"], taken)
-        self.assert_refused(1, "no sequence of switches and aligns",
+        self.assert_refused(1, "no sequence of switches and sliding steps",
                             *self.polygon_arguments(planner="contour", **options))
 
     def test_fingers_of_a_polygon_hold_until_they_leave_and_never_are_more_than_four(self):
@@ -400,7 +400,7 @@ class Plan(ProgramCase):
                                              planner="polygon", friction_angle="0.5", output="-")
             if self.run_program(*command).returncode == 0:
                 continue
-            said = self.assert_refused(1, "no sequence of switches and aligns", *command).stderr
+            said = self.assert_refused(1, "no sequence of switches and sliding steps", *command).stderr
             sizes = re.search(r"of (\d+) sets .* the start's component has (\d+), "
                               r"the goal's (\d+)$", said)
             self.assertTrue(sizes, said)

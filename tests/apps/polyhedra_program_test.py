@@ -152,7 +152,7 @@ class Sequences(ProgramCase):
                 joined += 1
                 continue
             apart += 1
-            said = self.assert_refused(1, ["no sequence of switches and aligns", "99 focus cells"],
+            said = self.assert_refused(1, ["no sequence of switches and sliding steps", "99 focus cells"],
                                        *pair).stderr
             sizes = re.search(r"start's component has (\d+), the goal's (\d+)", said)
             self.assertIsNotNone(sizes, said)

@@ -144,18 +144,18 @@ class Repair(ProgramCase):
 
     def test_a_plan_that_was_made_without_repair_is_not_validated_with_it(self):
         self.write_json("cube_plan.json", self.plan_of_cube())
-        self.assert_refused(2, "which was made for an unrepaired object", "--object",
+        self.assert_refused(2, "a plan for an unrepaired object", "--object",
                             self.model("cube.obj"), "--plan", "cube_plan.json", "--repair",
                             "--output", "result", program="validate")
 
     def test_a_refusal_says_what_a_repair_would_make_of_it(self):
-        words = ["1 border", "--repair makes a solid of it", "fill-holes", "deviation 0 %"]
+        words = ["1 border", "--repair produces a solid", "fill-holes", "deviation 0 %"]
         self.assert_refused(2, words, "--object", "open.obj", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--output", "p.json", program="plan")
 
     def test_a_refusal_says_what_else_would_help_where_no_repair_does(self):
         self.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
-        words = ["--repair does not make a solid of it", "open sheet", "--repair wall=T"]
+        words = ["--repair does not produce a solid", "open sheet", "--repair wall=T"]
         self.assert_refused(2, words, "--object", "sheet.obj", "--mu", "0.6", "--start", "random",
                             "--goal", "random", "--output", "p.json", program="plan")
 

@@ -46,7 +46,7 @@ class ShellsTest(ProgramCase):
         held_by_both = 0
         for seed in ("1", "2", "3", "4", "5", "6"):
             done = self.assert_done(*self.asked("beside.obj", "--shells", "union", seed=seed))
-            self.assertIn("2 closed shells are one body", done.stderr)
+            self.assertIn("2 closed shells form one body", done.stderr)
             self.assertEqual(json.loads(self.read("plan.json"))["object"]["shells"], "union")
             sides = {x > 0.04 for x, _, _ in self.contacts()}
             held_by_both += len(sides) == 2

@@ -22,7 +22,7 @@ class States(ProgramCase):
     def test_states_have_all_that_a_simulation_is_set_to(self):
         done = self.assert_done(*self.arguments(
             "--export-states", "6", "--seed", "3", "--output", "states", "--export-mjcf", "scene"))
-        self.assertIn("held, and written  ", done.stdout)
+        self.assertIn("stable, written  ", done.stdout)
         self.assertIn("confidence", done.stdout)
         states = read_npz(self.path("states/states.npz"))
         for name, width in PER_STATE.items():
@@ -78,7 +78,7 @@ class States(ProgramCase):
             self.assertEqual(few[name], one[name][:2], name)
 
     def test_what_cannot_be_held_ends_with_one_line(self):
-        self.assert_refused(1, ["no states", "cube.obj", "no random grasp"],
+        self.assert_refused(1, ["no states", "cube.obj", "random grasps"],
                             *self.arguments("--export-states", "2", scale="10"))
         self.assert_refused(1, ["no states", "1000", "support the weight"],
                             *self.arguments("--export-states", "2", "--mass", "50"))

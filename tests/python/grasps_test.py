@@ -106,7 +106,7 @@ class GraspsTest(RegraspCase):
         told = []
         parts = regrasp.force_closure(points, normals, mu=0.6, threads=1, required_angle=True,
                                       progress=told.append)
-        self.assertEqual(told[-1], "judged 4000 of 4000 grasps")
+        self.assertEqual(told[-1], "tested 4000 of 4000 grasps")
         self.assertEqual(len(told), 3)
         whole = regrasp.force_closure(points, normals, mu=0.6, threads=3, required_angle=True)
         np.testing.assert_array_equal(parts.margin, whole.margin)
@@ -127,7 +127,7 @@ class GraspsTest(RegraspCase):
         told = []
         found = regrasp.force_closure(points, normals, cube, mu=0.6, threads=1, quality=True,
                                       progress=told.append)
-        self.assertEqual((len(told), told[-1]), (5, "judged 1500 of 1500 grasps"))
+        self.assertEqual((len(told), told[-1]), (5, "tested 1500 of 1500 grasps"))
         held = found.is_force_closure
         self.assertGreater(held.sum(), 100)
         np.testing.assert_array_equal(found.quality_upper > 0, held)

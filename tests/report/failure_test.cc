@@ -175,7 +175,7 @@ TEST(Failure, OfAHandThatCollidesTellsTheClearanceThatThereIsIfThereIsOne) {
   place.gap_m = 3e-4;
   EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("--clearance below 300 µm"));
   place.gap_m = -3e-3;
-  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("no --clearance"));
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("links penetrate each other"));
 }
 
 TEST(Failure, OfAGoalThatIsNotReachedKnowsContactsFromPoses) {

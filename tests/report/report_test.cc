@@ -110,7 +110,7 @@ TEST(ReportTest, ContactRegionsAreInTheJsonTheTableAndTheWarningsWhereThereAreAn
   EXPECT_EQ(json["verdict"], "pass");
   ASSERT_EQ(Warnings(report).size(), 1u);
   EXPECT_EQ(Warnings(report)[0],
-            "step 1: the plan claims a contact region of 0.25, but it is 0.125");
+            "step 1: contact region: expected 0.25 as in the plan, found 0.125");
 }
 
 TEST(ReportTest, JsonSurvivesFileNamesThatAreNotUtf8) {

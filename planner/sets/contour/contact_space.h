@@ -24,7 +24,7 @@ namespace regrasp::contour {
 struct BorderSegment {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
-  PieceIndex piece;  ///< one of the pieces that it bounds
+  PieceIndex piece;  ///< a piece that it bounds
 };
 
 /// Compute the border of a set: the borders of its pieces except those inside the set.

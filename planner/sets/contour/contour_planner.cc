@@ -31,8 +31,8 @@ ContourModel::Attachments ContourModel::Attach(const grasp::Grasp& grasp) const 
 }
 
 std::string ContourModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
-  return "too near to its limit: in none of the " + std::to_string(graph().vertex_count()) + " " +
-         sets_name();
+  return "too close to the limit of force closure: in none of the " +
+         std::to_string(graph().vertex_count()) + " " + sets_name();
 }
 
 std::optional<ContourSwitch> ContourModel::FindSwitch(const Ends& ends) {

@@ -47,7 +47,7 @@ class RegionMetric {
     Eigen::Vector2d low;  ///< lower corner of the bounding box
     Eigen::Vector2d high;
     Eigen::Vector2d normal =
-        Eigen::Vector2d::Zero();  ///< with |nx| + |ny| = 1; zero if parallel to an axis
+        Eigen::Vector2d::Zero();  ///< normal with |nx| + |ny| = 1; zero if parallel to an axis
     double offset = 0;            ///< normal · x for the points x of its line
   };
 

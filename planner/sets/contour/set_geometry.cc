@@ -162,7 +162,7 @@ constexpr double kLeastMargin = 1e-6;
 /// Step through a passage.
 struct Crossing {
   PassageIndex passage;
-  bool forward;  ///< from the first piece to the second
+  bool forward;  ///< direction: from the first piece to the second
   PlaceRange range;
   double place;  ///< place of the fixed contact
 };
@@ -173,7 +173,7 @@ struct Reached {
   PassageIndex previous;  ///< invalid at the start
   bool forward = true;
   double hurry = 0;   ///< 1 / width; 0 if it is not computed yet
-  bool done = false;  ///< its cheapest path is known, or it is too narrow
+  bool done = false;  ///< whether its cheapest path is known, or it is too narrow
 };
 
 class Router {

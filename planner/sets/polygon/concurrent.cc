@@ -32,7 +32,7 @@ double Quotient(const Exact& numerator, const Exact& denominator) {
 std::vector<std::vector<Eigen::Vector2d>> FocusCell(const object::Polygon& polygon,
                                                     const GraspSet& set) {
   if (set.type != GraspType::kConcurrent || set.edges.size() != 3) {
-    throw std::invalid_argument("a focus cell needs a concurrent set");
+    throw std::invalid_argument("a focus cell requires a concurrent set");
   }
   const Eigen::Vector2d centre = polygon.mass_properties().centroid.head<2>();
   const double reach = kFarthestFocus * polygon.diameter();

@@ -144,7 +144,7 @@ class FilteredRegion {
     return Make(recipe, [&] { return recipe(Interval(0)); });
   }
 
-  /// The same, with `by_intervals` as a faster equivalent of recipe(Interval(0)).
+  /// Overload with `by_intervals` as a faster equivalent of recipe(Interval(0)).
   template <class Recipe, class ByIntervals>
   static std::optional<FilteredRegion> Make(const Recipe& recipe, const ByIntervals& by_intervals) {
     try {

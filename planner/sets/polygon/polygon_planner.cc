@@ -126,10 +126,9 @@ PolygonModel::Attachments PolygonModel::Attach(const grasp::Grasp& grasp) {
 
 /// Sets are open, so they contain no grasp with a contact at the end of an edge.
 std::string PolygonModel::WhyUnattached(const grasp::Grasp& grasp) const {
-  std::string why =
-      "in none of the " + std::to_string(graph_.vertex_count()) +
-      " sets of concurrent, 2-finger and parallel grasps of the planner polygon, and not "
-      "one switch away from them";
+  std::string why = "in none of the " + std::to_string(graph_.vertex_count()) +
+                    " sets of concurrent, 2-finger and parallel grasps of the planner polygon, nor "
+                    "one switch away from them";
   for (std::size_t i = 0; i < grasp.size(); ++i) {
     const double to_corner = polygon_.DistanceToBorder(grasp[i].face, grasp[i].p);
     if (to_corner > kNoSlack * polygon_.diameter()) continue;

@@ -108,7 +108,7 @@ SlackSolution MaximizeSlack(const Inequalities& set, double enough) {
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
   if (glp_simplex(dual.get(), &options) != 0 || glp_get_status(dual.get()) != GLP_OPT) {
-    throw std::runtime_error("a linear program of grasps could not be solved");
+    throw std::runtime_error("linear program of grasps not solved");
   }
   // The multipliers of the dual's rows are the solution of the primal program.
   SlackSolution solution;

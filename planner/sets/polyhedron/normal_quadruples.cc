@@ -126,7 +126,7 @@ class QuadrupleFinder {
   double tangent_;
   const Deadline& deadline_;
   double least_;    ///< lower bound on sin φ*
-  PairRows left_;   ///< for a < b: normals on the left of the plane through both
+  PairRows left_;   ///< normals on the left of the plane through a and b, a < b
   PairRows right_;  ///< normals on the right of it
   std::vector<QuadrupleCandidate> found_;
 };

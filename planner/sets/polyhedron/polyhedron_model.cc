@@ -68,12 +68,12 @@ PolyhedronModel::Attachments PolyhedronModel::Attach(const grasp::Grasp& grasp) 
 
 std::string PolyhedronModel::WhyUnattached(const grasp::Grasp& /*grasp*/) const {
   if (graph_.vertex_count() == 0) {
-    return "four contacts on this body are nowhere concurrent at this friction, and the planner "
-           "polyhedron plans between concurrent grasps only";
+    return "four contacts are nowhere concurrent on this object at this friction, and planner "
+           "polyhedron supports concurrent grasps only";
   }
   return "in none of the " + std::to_string(graph_.vertex_count()) +
-         " focus cells: its four contacts are not concurrent, and the planner polyhedron plans "
-         "between concurrent grasps only";
+         " focus cells: its four contacts are not concurrent, and planner polyhedron supports "
+         "concurrent grasps only";
 }
 
 /// Find the grasp of a cell with the given contacts and the deepest focus point.

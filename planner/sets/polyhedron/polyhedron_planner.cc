@@ -96,7 +96,7 @@ std::optional<MemoryNeed> PolyhedronPlanner::EstimateMemory(
 PolyhedronGraph& PolyhedronPlanner::GraphFor(const planning::PlanRequest& request,
                                              std::optional<PolyhedronGraph>& own) const {
   if (graph_ != nullptr) return *graph_;
-  request.progress("looking for quadruples of faces");
+  request.progress("searching quadruples of faces");
   return own.emplace(SolidOf(request), request.criteria.friction_angle, sets::SpanningOf(request),
                      request.deadline, request.progress);
 }

@@ -165,7 +165,7 @@ TEST(BatchPageTest, WhatDidNotPassComesFirstTheWorstAtTheTop) {
 
 TEST(BatchPageTest, APlanThatFailsShowsWhatFailedAndOneThatPassesItsSheet) {
   const std::string page = FormatBatchPage({{Failed("weak"), Passed("good")}, {}});
-  EXPECT_THAT(page, HasSubstr("alt=\"What fails in weak\""));
+  EXPECT_THAT(page, HasSubstr("alt=\"Failure of weak\""));
   EXPECT_THAT(page, HasSubstr("src=\"weak/001_switch.png\""));
   EXPECT_THAT(page, HasSubstr("src=\"good/overview.png\""));
   EXPECT_EQ(Count(page, "<img"), 2u);

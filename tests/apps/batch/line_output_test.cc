@@ -152,7 +152,7 @@ TEST_F(LineOutputTest, APipeInTheWayIsRefusedUnread) {
 TEST_F(LineOutputTest, OneProcessAtATimeWritesIt) {
   LinesOutput output(path_, header_, false);
   output.Append(LineOf(1));
-  EXPECT_THAT(Refusal<EnvironmentError>(header_), HasSubstr("another process writes it"));
+  EXPECT_THAT(Refusal<EnvironmentError>(header_), HasSubstr("another process writes this file"));
   EXPECT_EQ(ReadFile(part_), FormatHeader(header_) + LineOf(1));
 }
 

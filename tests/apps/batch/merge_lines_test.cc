@@ -81,7 +81,8 @@ TEST_F(MergeLinesTest, ShardsThatOverlapAreNamed) {
   EXPECT_THAT(Refusal(files), AllOf(HasSubstr("again: line 1: shard 2 of 4 must be given once"),
                                     HasSubstr("shard2of4")));
   files.back() = WriteShard(2, 3);
-  EXPECT_THAT(Refusal(files), HasSubstr("shard2of3: line 1: is shard 2 of 3, and of 4 is"));
+  EXPECT_THAT(Refusal(files),
+              HasSubstr("shard2of3: line 1: expected a shard of 4, found shard 2 of 3"));
 }
 
 TEST_F(MergeLinesTest, ShardsOfDifferentRunsDoNotMix) {

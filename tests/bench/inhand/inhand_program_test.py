@@ -42,7 +42,7 @@ class InHand(ProgramCase):
                             self.plan(), self.hand("ring5"))
         with open(self.plan(), encoding="utf-8") as file:
             plan = json.load(file)
-        plan["planner"] = "of others"
+        plan["planner"] = "third party"
         plan["hand"]["initial"]["joints"][0][0] += 1
         failing = self.write_json("failing.json", plan)
         done = self.run_program("--task", "turn/cube-50/z90", "--plan", failing, "--results",
@@ -50,7 +50,7 @@ class InHand(ProgramCase):
                                 self.hand())
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertFalse(json.loads(done.stdout)["passed"])
-        self.assertIn("| ring4, of others | 1 of 1 | 0 of 1 |", self.read("page.md").decode())
+        self.assertIn("| ring4, third party | 1 of 1 | 0 of 1 |", self.read("page.md").decode())
 
     def test_bodies_are_files_for_other_planners(self):
         listed = self.assert_done("--list", "--bodies", self.path("bodies")).stdout
@@ -61,7 +61,7 @@ class InHand(ProgramCase):
 
     def test_bad_input_is_refused_with_one_line(self):
         results = ("--results", self.path("rows.jsonl"))
-        self.assert_refused(2, ["nothing to do"])
+        self.assert_refused(2, ["--list or --bodies is required"])
         self.assert_refused(2, ["--results"], self.hand())
         self.assert_refused(2, ["--only"], "--only", "turn/none/*", *results, self.hand())
         self.assert_refused(2, ["--task", "--plan"], "--task", "turn/cube-50/z90", self.hand())

@@ -60,7 +60,7 @@ TEST(Rows, AreRefusedWithTheirLine) {
   try {
     (void)ParseRows(good + "{}\n", "rows");
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("rows: line 2: is no row"));
+    EXPECT_THAT(error.what(), HasSubstr("rows: line 2: not a row"));
   }
 }
 

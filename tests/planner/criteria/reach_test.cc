@@ -61,7 +61,7 @@ TEST(Reach, SaysWhatFitsOrHowFarTheWayIsFree) {
   const std::string obstacle = FindObstacle(ring, inside, 0.1).value_or("");
   EXPECT_NE(obstacle.find("1.8 of free path"), std::string::npos) << obstacle;
   const std::string ball = FindObstacle(ring, inside, 1.25).value_or("");
-  EXPECT_NE(ball.find("a ball of radius 1.25 at its contact enters the object; 1 fits"),
+  EXPECT_NE(ball.find("a sphere of radius 1.25 at its contact penetrates the object, limit 1"),
             std::string::npos)
       << ball;
 }
@@ -103,7 +103,7 @@ TEST(Reach, NoFingerComesIntoASealedCavityHoweverThin) {
   for (const double radius : {0.0, 1e-9, 0.1}) {
     EXPECT_FALSE(CanReach(hollow, inside, radius));
     EXPECT_EQ(FindObstacle(hollow, inside, radius).value_or(""),
-              "its contact is in a sealed cavity, which no finger reaches from outside");
+              "its contact is in a sealed cavity");
     EXPECT_TRUE(CanReach(hollow, outside, radius));
   }
   // A hole of a polygon is a hole through a prism, which a finger can enter from above.

@@ -430,7 +430,7 @@ TEST(FindGaitTest, ReportsHowNearTheObjectGetsToItsGoalPose) {
   };
   EXPECT_EQ(message_at(0.020), "found");
   EXPECT_THAT(message_at(0.045),
-              testing::AnyOf(testing::HasSubstr("no grasp is found that holds it there"),
+              testing::AnyOf(testing::HasSubstr("no stable grasp is found there"),
                              testing::HasSubstr("% of the path to its goal pose")));
   EXPECT_THROW(message_at(0.085), InputError);
 }

@@ -140,12 +140,12 @@ TEST_F(ConvertModelTest, WhatIsPartOfTheHandIsRefusedInOneLine) {
   const std::string refusal = Refusal(
       R"(<mujoco><worldbody>
          <replicate count="3"><geom size="0.1"/></replicate></worldbody></mujoco>)");
-  EXPECT_THAT(refusal, HasSubstr("model.xml: line 2: <replicate> is not known to MuJoCo"));
+  EXPECT_THAT(refusal, HasSubstr("model.xml: line 2: <replicate> is not supported by MuJoCo"));
   EXPECT_THAT(refusal, testing::Not(HasSubstr("\n")));
   EXPECT_THAT(
       Refusal(R"(<mujoco><worldbody><body><geom size="1"/><site name="a"/></body></worldbody>
                          <equality><weld site1="a" site2="b"/></equality></mujoco>)"),
-      HasSubstr("line 2: <weld> between sites is not known to MuJoCo"));
+      HasSubstr("line 2: <weld> between sites is not supported by MuJoCo"));
   EXPECT_THAT(Refusal("<mujoco><worldbody>"), HasSubstr("line 1: "));
   EXPECT_THAT(Refusal("<sdf/>"), HasSubstr("expected a model as MJCF"));
   EXPECT_THAT(Refusal("<mujoco><include/></mujoco>"),

@@ -48,8 +48,10 @@ TEST(HandDescriptionTest, WhatIsWrongIsNamed) {
     }
   };
   expect_fails("/fingers: expected at least 3", [](Json& json) { json["fingers"].erase(0); });
-  expect_fails("two fingers have the name a", [](Json& json) { json["fingers"][1]["name"] = "a"; });
-  expect_fails("the same tip", [](Json& json) { json["fingers"][1]["tip"]["body"] = "tip_a"; });
+  expect_fails("names of fingers must be unique, found a twice",
+               [](Json& json) { json["fingers"][1]["name"] = "a"; });
+  expect_fails("must have different fingertips",
+               [](Json& json) { json["fingers"][1]["tip"]["body"] = "tip_a"; });
   expect_fails("/fingers/0/tip/radius",
                [](Json& json) { json["fingers"][0]["tip"]["radius"] = 0; });
   expect_fails("/up: expected a direction", [](Json& json) { json["up"] = {0, 0, 0}; });

@@ -119,9 +119,9 @@ TEST_F(JointRelationsTest, WhatNoRelationRepresentsIsRefusedByName) {
               HasSubstr("ring.xml: equality constraint of joint f3: expected a linear relation, "
                         "found polycoef=\"0 0.8 0.2 0 0\""));
   EXPECT_THAT(Refusal(Equality(R"(joint1="f3" polycoef="0.3 0 0 0 0")")),
-              HasSubstr("holds joint f3 at an angle"));
+              HasSubstr("fixes joint f3"));
   EXPECT_THAT(Refusal(Equality(R"(joint1="f3" joint2="f2" polycoef="0.3 0 0 0 0")")),
-              HasSubstr("holds joint f3 at an angle"));
+              HasSubstr("fixes joint f3"));
   EXPECT_THAT(Refusal(Equality(R"(joint1="g3" joint2="f2")")),
               HasSubstr("couples joints g3 and f2, expected two joints of one finger, found joints "
                         "of two fingers"));
@@ -212,7 +212,7 @@ TEST_F(JointRelationsTest, AHandFileMustHaveTheCouplingsOfItsModel) {
   description.couplings = {{"f3", "f2", 1.06, 0.2}, {"g33", "g2", 1, 0}};
   EXPECT_THAT(read(), HasSubstr("/couplings/1/joint: expected a joint of a finger, found \"g33\""));
   description.couplings[1] = {"f3", "f2", 1.06, 0.2};
-  EXPECT_THAT(read(), HasSubstr("joint f3 is coupled twice"));
+  EXPECT_THAT(read(), HasSubstr("joint f3 must be coupled once, found twice"));
   description.couplings[1] = {"g3", "g2", 1, 0};
   EXPECT_EQ(read(), "taken") << "a file may couple more than its model";
 }
@@ -314,7 +314,7 @@ TEST_F(JointRelationsTest, MimicsOfAUrdfAreCouplingsOrRefused) {
   ExpectOne(inspected.description.couplings, 1.1169, -0.15);
   EXPECT_THAT(InspectionText(inspected), HasSubstr("1.117 × f2 − 0.15 rad"));
   EXPECT_THAT(refusal(R"(<mimic joint="f2" multiplier="0"/>)"),
-              HasSubstr("<mimic> of joint f3: holds joint f3 at an angle"));
+              HasSubstr("<mimic> of joint f3: fixes joint f3"));
   EXPECT_THAT(refusal(R"(<mimic joint="f22"/>)"),
               HasSubstr("<mimic> of joint f3: expected a joint that moves, found \"f22\""));
   EXPECT_THAT(refusal(R"(<mimic joint="g2"/>)"), HasSubstr("found joints of two fingers"));
@@ -327,8 +327,8 @@ TEST_F(JointRelationsTest, AnUnknownStrengthIsNoted) {
     return InspectHand(Write("ring.urdf", RingUrdf(limit, ""))).notes;
   };
   const std::string unknown =
-      "the largest torque of joints f1, f2, f3, g1, g2, g3 and 3 more is "
-      "unknown and taken as unlimited";
+      "force limit of joints f1, f2, f3, g1, g2, g3 and 3 more "
+      "unknown, treated as unlimited";
   EXPECT_THAT(notes("effort=\"1\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\" 1.0\""), testing::Not(testing::Contains(unknown)));
   EXPECT_THAT(notes("effort=\"0\""), testing::Contains(unknown));

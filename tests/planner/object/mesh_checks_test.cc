@@ -34,8 +34,9 @@ std::vector<Spoilt> SpoiltCubes() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   return {
-      {"nothing", MeshDefect::kEmpty, "no facet", [](PolygonSoup& s) { s = {}; }},
-      {"no facets", MeshDefect::kEmpty, "no facet", [](PolygonSoup& s) { s.facets.clear(); }},
+      {"nothing", MeshDefect::kEmpty, "facets not found", [](PolygonSoup& s) { s = {}; }},
+      {"no facets", MeshDefect::kEmpty, "facets not found",
+       [](PolygonSoup& s) { s.facets.clear(); }},
       {"NaN", MeshDefect::kNotFinite, "vertex 5: the coordinate nan",
        [=](PolygonSoup& s) { s.vertices[5].y() = nan; }},
       {"infinite", MeshDefect::kNotFinite, "vertex 2: the coordinate -inf",
@@ -92,7 +93,8 @@ std::vector<Spoilt> SpoiltCubes() {
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup({0.5, -0.2, -0.2}, {1, 0.2, 0.2}));
        }},
-      {"bodies beside", MeshDefect::kSeveralSolids, "facet 6: several solids: its shell is next to",
+      {"bodies next to each other", MeshDefect::kSeveralSolids,
+       "facet 6: several solids: its shell is not inside",
        [](PolygonSoup& s) {
          s = Join(s, BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5)));
        }},
@@ -114,7 +116,7 @@ std::vector<Spoilt> SpoiltCubes() {
          Turn(inner);
          s = Join(Join(s, cavity), inner);
        }},
-      {"inward beside a cavity's orientation", MeshDefect::kSeveralSolids, "is next to",
+      {"inward outside a cavity", MeshDefect::kSeveralSolids, "is not inside",
        [](PolygonSoup& s) {
          PolygonSoup other = BoxSoup(Vector3d::Constant(2), Vector3d::Constant(2.5));
          Turn(other);
@@ -130,11 +132,11 @@ TEST(MeshChecks, EachDefectIsNamedWithItsElement) {
     PolygonSoup soup = UnitCubeSoup();
     spoilt.spoil(soup);
     try {
-      static_cast<void>(Polyhedron::FromSoup(soup, "spoilt cube"));
+      static_cast<void>(Polyhedron::FromSoup(soup, "corrupt cube"));
       ADD_FAILURE() << "accepted";
     } catch (const MeshError& error) {
       EXPECT_EQ(error.defect(), spoilt.defect) << error.what();
-      EXPECT_THAT(error.what(), HasSubstr("spoilt cube: "));
+      EXPECT_THAT(error.what(), HasSubstr("corrupt cube: "));
       EXPECT_THAT(error.what(), HasSubstr(spoilt.words));
     }
   }
@@ -152,7 +154,7 @@ TEST(MeshChecks, EachDefectIsFoundUnderAnyMotion) {
     spoilt.spoil(soup);
     Transform(soup, SomeMotion());
     try {
-      static_cast<void>(Polyhedron::FromSoup(soup, "spoilt cube"));
+      static_cast<void>(Polyhedron::FromSoup(soup, "corrupt cube"));
       ADD_FAILURE() << spoilt.what << " accepted";
     } catch (const MeshError& error) {
       EXPECT_EQ(error.defect(), spoilt.defect) << error.what();
@@ -205,7 +207,7 @@ TEST(MeshChecks, APolygonThatIsBentIsTwoFacesAndAFlatOneIsOne) {
     ADD_FAILURE() << "accepted";
   } catch (const MeshError& error) {
     EXPECT_EQ(error.defect(), MeshDefect::kNotPlanar);
-    EXPECT_THAT(error.what(), HasSubstr("a corner lies 0.001905 off its plane, 0.001097 of the"));
+    EXPECT_THAT(error.what(), HasSubstr("a corner is 0.001905 off its plane, 0.001097 of the"));
   }
 }
 
@@ -248,7 +250,7 @@ std::vector<Harmless> HarmlessCubes() {
          s.facets[0] = {0, 2, 3, 1, 8};
        },
        MeshDefect::kNotClosed},
-      {"a triangle without area beside two edges",
+      {"a triangle without area next to two edges",
        [=](PolygonSoup& s) {
          with_middle(s);
          s.facets.push_back({0, 8, 1});
@@ -389,7 +391,7 @@ TEST(MeshChecks, ARefusalNamesTheFirstDefectAndCountsAll) {
   std::ranges::reverse(open.facets[1]);
   EXPECT_EQ(refusal(open),
             "x.off: facet 0: not closed: no other facet at the edge from vertex 0 (-0.5, -0.5, "
-            "-0.5) to vertex 2 (-0.5, 0.5, -0.5); in all 4 open edges in 1 border (the longest 4 "
+            "-0.5) to vertex 2 (-0.5, 0.5, -0.5); in total 4 open edges in 1 border (the longest 4 "
             "long), 3 edges between facets of opposite orientation");
   PolygonSoup boxes;
   for (int i = 0; i < 3; ++i) {
@@ -398,7 +400,7 @@ TEST(MeshChecks, ARefusalNamesTheFirstDefectAndCountsAll) {
   EXPECT_THAT(refusal(boxes), HasSubstr("crossing pairs, 3 closed shells (all of them overlap, "
                                         "with "));
   // A defect that is not counted has no counts in its message.
-  EXPECT_EQ(refusal({}), "x.off: empty: no facet");
+  EXPECT_EQ(refusal({}), "x.off: empty: facets not found");
 }
 
 TEST(MeshChecks, FacetsJoinWithinTheCoplanarAngleOnly) {

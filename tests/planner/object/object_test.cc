@@ -89,7 +89,7 @@ TEST(Reading, EndsAtTheDeadlineInWhicheverStageItComes) {
     EXPECT_GE(never.looks(), 2) << path;
     for (int look = 1; look <= never.looks(); ++look) {
       EXPECT_THAT(WhatStops(path, CountedDeadline(look).deadline()),
-                  AllOf(StartsWith(path), HasSubstr("time limit reached while reading it")))
+                  AllOf(StartsWith(path), HasSubstr("time limit reached while reading")))
           << look;
     }
   }

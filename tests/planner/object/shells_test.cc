@@ -69,7 +69,7 @@ TEST(Shells, SolidsBesideEachOtherAreOneRigidBody) {
   EXPECT_EQ(body.face_count(), 12);
   EXPECT_EQ(CountEnclosed(body), 0);
   EXPECT_NEAR(body.diameter(), 5 * std::sqrt(3), 1e-12);
-  EXPECT_EQ(text, "2 closed shells are one body of 2 solids");
+  EXPECT_EQ(text, "2 closed shells form one body of 2 solids");
 }
 
 TEST(Shells, WithoutAChoiceTheRefusalSaysHowManyThereAreAndHowLarge) {

@@ -27,7 +27,7 @@ TEST(SizeComplaint, OfObjectsThatAreTooSmallOrTooFarAway) {
 TEST(EdgeComplaint, OfEdgesWhoseProductsWouldUnderflow) {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   EXPECT_EQ(EdgeComplaint(origin, {2 * kMinEdge, 0, 0}, 1), "");
-  EXPECT_THAT(EdgeComplaint(origin, {kMinEdge / 2, 0, 0}, 1), HasSubstr("make its ends one point"));
+  EXPECT_THAT(EdgeComplaint(origin, {kMinEdge / 2, 0, 0}, 1), HasSubstr("merge its ends"));
   EXPECT_THAT(EdgeComplaint(origin, {2 * kMinEdge, 0, 0}, 4), HasSubstr("shorter"));
   EXPECT_THAT(EdgeComplaint(origin, origin, 1), HasSubstr("shorter (0)"));
   // The square of this length underflows.

@@ -90,9 +90,10 @@ TEST(WeldVertices, NamesWhatIsWrong) {
   };
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
   EXPECT_EQ(refusal({corners, {{0, 1, 2}}}), "");
-  EXPECT_EQ(refusal({corners, {}}),
-            "file.stl: empty: no facet, found only 4 points; help: make a surface of them with "
-            "repair");
+  EXPECT_EQ(
+      refusal({corners, {}}),
+      "file.stl: empty: facets not found, found only 4 points; help: reconstruct a surface with "
+      "repair");
   EXPECT_THAT(refusal({corners, {{0, 1, 2}, {0, 1, 4}}}),
               HasSubstr("facet 1: vertex index 4 must be at least 0 and less than 4"));
   EXPECT_THAT(refusal({corners, {{0, 1, -1}}}), HasSubstr("vertex index -1 must be at least 0"));

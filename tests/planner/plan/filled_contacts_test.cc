@@ -45,7 +45,7 @@ TEST(FilledContacts, TheFirstIsNamedAndAllAreCounted) {
                                          "(finger 1 in the initial grasp)"));
   plan.initial = {kLeft, kTop};
   plan.steps = {Switch{{kRight}, {}}, Align{{{kLeft, kTop, kRight}, {kLeft, kTop, kRight}}}};
-  EXPECT_THAT(WarningOf(plan), HasSubstr("2 contacts are on surface that the repair filled in "
+  EXPECT_THAT(WarningOf(plan), HasSubstr("2 contacts are on filled surface "
                                          "(finger 1 in step 1)"));
 }
 

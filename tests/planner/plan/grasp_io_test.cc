@@ -81,7 +81,7 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
                 .find("grasp.json: /contacts/1/normal: the normal differs by 180.00°"),
             0u);
   EXPECT_EQ(Complaint(R"({"point": [1, 0, 0], "normal": [-2, 0, 0]})", cube),
-            "grasp.json: /contacts/0/normal: the normal is 2 long, not 1, expected "
+            "grasp.json: /contacts/0/normal: the normal must have length 1, found 2, expected "
             "(-1, 0, 0)");
   EXPECT_EQ(Complaint(good, square), "grasp.json: /contacts/0/point: expected 2 numbers, found 3");
   EXPECT_EQ(Complaint("", cube), "grasp.json: /contacts: expected at least one contact");

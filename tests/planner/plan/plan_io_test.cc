@@ -127,7 +127,7 @@ TEST(PlanIo, RefusesCertificatesThatDoNotFitTheAlign) {
   EXPECT_EQ(complaint([](Json&) {}), "");
   EXPECT_EQ(
       complaint([](Json& ways) { ways.erase(0); }),
-      "plan.json: /steps/2/certificate: expected 2 lists of pieces, one for each waypoint but "
+      "plan.json: /steps/2/certificate: expected 2 lists of pieces, one for each waypoint except "
       "the last, found 1");
   EXPECT_EQ(complaint([](Json& ways) { ways[1][0]["end"].erase(0); }),
             "plan.json: /steps/2/certificate/1/0/end: expected 4 forces, one per finger, found 3");

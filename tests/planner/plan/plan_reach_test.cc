@@ -51,7 +51,7 @@ TEST(PlanReach, AGraspAtRestNeedsRoomForEachFingerAndBetweenThem) {
   EXPECT_FALSE(FindRestObstacle(l, grasp, 0).has_value());
   EXPECT_FALSE(FindRestObstacle(l, grasp, 0.2).has_value());
   const std::string corner = DetailOf(FindRestObstacle(l, grasp, 0.25));
-  EXPECT_NE(corner.find("finger 3: a ball of radius 0.25"), std::string::npos) << corner;
+  EXPECT_NE(corner.find("finger 3: a sphere of radius 0.25"), std::string::npos) << corner;
   const FingerGrasp close = {At(l, 3, {1.6, 1, 0.5}, {0, -1, 0}),
                              At(l, 7, {2, 1, 0.5}, {0, -1, 0})};
   const std::string overlap = DetailOf(FindRestObstacle(l, close, 0.25));

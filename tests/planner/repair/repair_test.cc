@@ -423,7 +423,7 @@ TEST(Repair, ACloudWhosePointsScatterIsRefusedForThat) {
     scattered.vertices.emplace_back(v.normalized() * (1 + 0.2 * share(generator)));
   }
   EXPECT_NEAR(Repair(sharp, "cloud", {}).volume, 4.0 / 3 * std::numbers::pi, 0.1);
-  EXPECT_THAT(Refusal(scattered), AllOf(HasSubstr("scatter as widely"), HasSubstr("smooth")));
+  EXPECT_THAT(Refusal(scattered), AllOf(HasSubstr("points too noisy"), HasSubstr("smooth")));
 }
 
 TEST(Repair, ASolidTurnsOutwardsWhicheverWayItsFileDoes) {

@@ -34,7 +34,7 @@ TEST(RunStage, AStageThatCannotGoOnSaysWhy) {
 TEST(RunStage, AStageThatCrashesTakesNothingWithIt) {
   const StageRun run = RunStage([]() -> StageResult { std::abort(); }, {});
   EXPECT_FALSE(run.result);
-  EXPECT_EQ(run.failure, "crashed or ran out of memory");
+  EXPECT_EQ(run.failure, "crashed or exceeded its memory limit");
 }
 
 }  // namespace run_stage_test

@@ -250,10 +250,10 @@ TEST(DrawOnSurface, MakesAnEndWhereItIsTold) {
   RandomStream random(1, RandomUse::kStart);
   int draws = 0;
   const auto stop = [&] {
-    if (++draws == 10) throw NoGrasp{"the time was up"};
+    if (++draws == 10) throw NoGrasp{"time limit reached"};
   };
   EXPECT_EQ(Refusal([&] { (void)DrawOnSurface(cube, kFour, evaluator, random, "start", stop); }),
-            "the time was up");
+            "time limit reached");
 }
 
 }  // namespace draw_grasp_test

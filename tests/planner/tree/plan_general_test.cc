@@ -140,7 +140,7 @@ TEST(PlanGeneralTest, AnEffortTooSmallSaysWhatWasReachedAndExplainFindsTheFricti
     ++none;
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_THAT(result.message, HasSubstr(" from the start and "));
-    EXPECT_THAT(result.message, HasSubstr("this does not prove that there is no sequence"));
+    EXPECT_THAT(result.message, HasSubstr("this does not prove infeasibility"));
     options.parameters.Edit<planning::SearchParameters>().budget = 40'000;
     options.parameters.Edit<planning::SearchParameters>().explain = true;
     const planning::PlanResult more =

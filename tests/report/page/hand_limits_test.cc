@@ -77,8 +77,8 @@ TEST(HandLimitsTest, AForceLimitThatTheModelDoesNotGiveIsNamedEverywhere) {
   EXPECT_THAT(PageOf(report), HasSubstr("unknown"));
   ASSERT_THAT(Warnings(report), SizeIs(1));
   EXPECT_EQ(Warnings(report)[0],
-            "the hand's model gives no force limit for 1 of 2 actuators: the verdict takes their "
-            "strength as unlimited, largest torque 1.17 N·m");
+            "force limits not found in the hand model for 1 of 2 actuators, treated as "
+            "unlimited; largest torque 1.17 N·m");
 }
 
 TEST(HandLimitsTest, GeometryThatIsInTheObjectWhereASphereTouchesIsNamed) {

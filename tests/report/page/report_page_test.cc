@@ -42,7 +42,7 @@ struct Scene {
     for (int index = 0; index < 3; ++index) AddStep(index);
     if (fails) {
       report.steps[1].replay->reason = plan::Reason::kSlipped;
-      report.steps[1].replay->detail = "finger 2 slipped by 3 mm";
+      report.steps[1].replay->detail = "finger 2 slips 3 mm";
       report.steps[2].replay.reset();
       report.steps[2].skipped = true;
     }
@@ -89,7 +89,7 @@ TEST(ReportPageTest, APlanThatFailsSaysWhereAndWhy) {
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});
   EXPECT_THAT(page, HasSubstr("<strong>Fail</strong>"));
   EXPECT_THAT(page, Not(HasSubstr("<strong>Pass</strong>")));
-  EXPECT_THAT(page, HasSubstr("Finger 2 slipped by 3 mm."));
+  EXPECT_THAT(page, HasSubstr("Finger 2 slips 3 mm."));
   EXPECT_EQ(Count(page, "<tr class=\"fail\">"), 1);
   EXPECT_EQ(Count(page, "<tr class=\"skipped\">"), 1);
   EXPECT_THAT(page, HasSubstr("fail: slipped"));
@@ -179,7 +179,7 @@ TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {
   EXPECT_EQ(Count(page, "id=\"frame1\""), 1);
   EXPECT_LT(page.find("id=\"frame1\""), page.find("class=\"facts\""));
   EXPECT_GT(page.find("id=\"frame0\""), page.find("class=\"facts\""));
-  EXPECT_THAT(page, HasSubstr("Slipped: finger 2 slipped by 3 mm"));
+  EXPECT_THAT(page, HasSubstr("Slipped: finger 2 slips 3 mm"));
   EXPECT_EQ(Count(FormatReportHtml(passing.report, passing.plan, pictures), "class=\"failure\""),
             0);
 }

@@ -302,7 +302,7 @@ TEST(HandReplayTest, ASlideThatIsBrokenFails) {
           for (plan::FingerGrasp* grasp : {&plan.initial, &align.waypoints[0], &align.waypoints[1]})
             std::erase_if(*grasp, [&](const auto& held) { return held.finger == away; });
         }},
-       "that the others cannot balance"},
+       "whose force the others cannot balance"},
   };
   for (const auto& [control, words] : controls) {
     plan::Plan plan = SlidingPlan(0.008);

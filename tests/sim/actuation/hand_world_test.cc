@@ -265,7 +265,7 @@ TEST_F(HandWorldTest, TheStrengthOfAUrdfsJointsIsItsEffort) {
   }
 }
 
-/// A finger that has not reached the object has no contact to exert a force at.
+/// A finger that does not reach the object has no contact to exert a force at.
 TEST_F(HandWorldTest, AControllerOfFingersFarFromTheObjectAsksForNoForce) {
   const kinematics::HandFile hand = HandWith({});
   const plan::Plan plan = PlanFor(hand);

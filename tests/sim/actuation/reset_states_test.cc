@@ -134,7 +134,7 @@ TEST_F(ResetStatesTest, WhatNoHandHoldsEndsWithTheReason) {
   request_.scale = 10;  // edge length of 0.5 m
   const DrawnStates large = Draw(2, 1, 2);
   EXPECT_TRUE(large.states.empty());
-  EXPECT_EQ(large.message, "no random grasp within reach of the hand is force closure");
+  EXPECT_EQ(large.message, "random grasps within reach of the hand are not force closure");
 }
 
 TEST_F(ResetStatesTest, StockMuJoCoHoldsThemInTheSceneThatIsExported) {

@@ -147,7 +147,7 @@ TEST(TipGeometryTest, ATipWithoutCollisionGeometryIsNamed) {
     FAIL() << "is not refused";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr("ring5.xml: the tip link finger0_distal of "
+                testing::AllOf(testing::HasSubstr("ring5.xml: fingertip link finger0_distal of "
                                                   "finger 0 (finger0) has no collision geometry"),
                                testing::Not(testing::HasSubstr("\n"))));
   }

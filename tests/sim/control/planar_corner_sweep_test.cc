@@ -152,7 +152,7 @@ TEST(PlanarCornerSweep, RandomWalksPassAndFailBelowTheirCriticalFriction) {
     }
   }
   std::cout << tally.plans << " walks past " << tally.turns << " corners pass, " << tally.refuted
-            << " fail at 0.9 of their critical friction; largest drift over D: " << tally.drift
+            << " fail at 0.9 of their required friction; largest drift over D: " << tally.drift
             << "\n";
   EXPECT_GE(tally.plans, 30);
   EXPECT_GE(tally.turns, 500);
@@ -176,7 +176,7 @@ TEST(PlanarCornerSweep, RandomSwitchesPassAndFailBelowTheirCriticalFriction) {
     }
   }
   std::cout << tally.steps << " switches pass, " << tally.refuted << " of " << tally.plans
-            << " plans fail at 0.9 of their critical friction; largest drift over D: "
+            << " plans fail at 0.9 of their required friction; largest drift over D: "
             << tally.drift << "\n";
   EXPECT_GE(tally.plans, 20);
   EXPECT_EQ(tally.refuted, tally.plans);

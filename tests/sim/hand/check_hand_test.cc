@@ -224,10 +224,11 @@ TEST(CheckHandTest, ASlideIsFollowedAllTheWay) {
     std::function<void(plan::Align&)> change;
   };
   const std::vector<Change> changes = {
-      {"no paths", Reason::kHandJumps, "no path", [](auto& align) { align.motion.reset(); }},
+      {"no paths", Reason::kHandJumps, "path of the hand not found",
+       [](auto& align) { align.motion.reset(); }},
       {"a path too few", Reason::kHandJumps, "for its waypoints",
        [](auto& align) { align.motion->pop_back(); }},
-      {"one state", Reason::kHandJumps, "path to waypoint 1 has one state",
+      {"one state", Reason::kHandJumps, "path to waypoint 1 must have at least two states",
        [](auto& align) { align.motion->front().resize(1); }},
       {"the finger stays behind", Reason::kTipOffContact, "tip of finger",
        [](auto& align) {
@@ -277,7 +278,7 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          plan.initial.front().contact.p += 1e-4 * plan.initial.front().contact.n.unitOrthogonal();
          return 0;
        }},
-      {"a joint beyond its limit", Reason::kJointLimit, "limits are",
+      {"a joint beyond its limit", Reason::kJointLimit, "limits ",
        [](plan::Plan& plan) {
          for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
            if (plan::FindFinger(plan.initial, finger) != nullptr) continue;
@@ -306,7 +307,7 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          FirstMove(plan).path.back().joints[2].pop_back();
          return FirstOf(plan, "move") + 1;
        }},
-      {"no path", Reason::kHandJumps, "no path",
+      {"no path", Reason::kHandJumps, "path of the hand not found",
        [](plan::Plan& plan) {
          FirstSwitch(plan).motion.reset();
          return FirstOf(plan, "switch") + 1;
@@ -318,7 +319,7 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          path.erase(path.begin() + 1, path.end() - 1);
          return step + 1;
        }},
-      {"the object is elsewhere at last", Reason::kGoalNotReached, "from its goal",
+      {"the object ends at another pose", Reason::kGoalNotReached, "from its goal",
        [](plan::Plan& plan) {
          plan.hand->goal.translation().z() += 1e-5;
          return static_cast<int>(plan.steps.size());
@@ -414,7 +415,7 @@ TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
   EXPECT_GT(gap, 1e-3 - 1e-5) << "the plan keeps 1 mm";
   EXPECT_LT(gap, 0.02);
   EXPECT_THAT(faults.front().detail, testing::HasSubstr("within " + FormatLength(gap)));
-  EXPECT_THAT(faults.front().detail, testing::HasSubstr("the clearance is 2 cm"));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("required clearance 2 cm"));
 }
 
 TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {

@@ -37,7 +37,7 @@ DiscriminationCount DiscriminateGrasp(const object::Object& body, const plan::Fi
   DiscriminationCount count;
   count.below = 1;
   count.failed_below = ReplayHold(body, grasp, kBelow * mu).reason != plan::Reason::kNone;
-  EXPECT_TRUE(count.failed_below) << "passes at 0.9 of its critical friction";
+  EXPECT_TRUE(count.failed_below) << "passes at 0.9 of its required friction";
   const double quality =
       grasp::ComputeQuality(plan::ContactsOf(grasp), body.wrench_frame(), std::atan(kAbove * mu))
           .lower;
@@ -45,7 +45,7 @@ DiscriminationCount DiscriminateGrasp(const object::Object& body, const plan::Fi
   count.above = 1;
   const StepReplay above = ReplayHold(body, grasp, kAbove * mu);
   count.passed_above = above.reason == plan::Reason::kNone;
-  EXPECT_TRUE(count.passed_above) << "fails at 1.5 of its critical friction, quality " << quality
+  EXPECT_TRUE(count.passed_above) << "fails at 1.5 of its required friction, quality " << quality
                                   << ": " << above.detail;
   return count;
 }
@@ -80,7 +80,7 @@ DiscriminationCount Discriminate(
 
 void ExpectManyDiscriminated(const DiscriminationCount& count, const std::string& grasps) {
   std::cout << count.failed_below << " of " << count.below << " " << grasps
-            << " fail at 0.9 of their critical friction, " << count.passed_above << " of "
+            << " fail at 0.9 of their required friction, " << count.passed_above << " of "
             << count.above << " pass at 1.5 of it\n";
   ::testing::Test::RecordProperty("below_checked", count.below);
   ::testing::Test::RecordProperty("below_failed", count.failed_below);

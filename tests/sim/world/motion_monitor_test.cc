@@ -83,19 +83,19 @@ TEST(MotionMonitorTest, ALostContactComesBeforeASlipBeforeAMotion) {
 
 TEST(MotionMonitorTest, TellsHowFarAndWhenItWasSeenFirst) {
   MotionMonitor monitor(UnitSettings());
-  monitor.SetPhase("during the align");
+  monitor.SetPhase("during the sliding step");
   monitor.AddPose(Pose(0, 0));
   monitor.AddPose(Pose(0.004, 0));
-  EXPECT_EQ(monitor.detail(), "the object moved by 4 mm and turned by 0° during the align");
+  EXPECT_EQ(monitor.detail(), "the object moves 4 mm and rotates 0° during the sliding step");
   monitor.AddSlip(FingerIndex(2), 0.003);
-  monitor.SetPhase("under a push of 5.3 N along +x");
+  monitor.SetPhase("under a disturbance force of 5.3 N along +x");
   monitor.AddSlip(FingerIndex(1), 0.007);
   monitor.AddSlip(FingerIndex(2), 0.0045);
-  EXPECT_EQ(monitor.detail(), "finger 2 slipped by 4.5 mm during the align");
+  EXPECT_EQ(monitor.detail(), "finger 2 slips 4.5 mm during the sliding step");
   EXPECT_EQ(monitor.slip_m(), 0.007);
   monitor.AddGap(FingerIndex(3), 1e-4);
   EXPECT_EQ(monitor.detail(),
-            "finger 3 moved 100 µm off the surface under a push of 5.3 N along +x");
+            "finger 3 is 100 µm off the surface under a disturbance force of 5.3 N along +x");
 }
 
 TEST(MotionMonitorTest, WhatExceedsTheToleranceIsNotToldEqualToIt) {

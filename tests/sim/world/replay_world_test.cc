@@ -106,8 +106,7 @@ TEST(MonitorOfAReplay, AnEngineThatCannotGoOnIsNoPass) {
   observer.on_sample = [](const plan::Snapshot&) { throw UnstableError("made up"); };
   const ReplayResult result = ReplayPlan(cube.object, MakePlan(cube.Start(), 25), {}, observer);
   EXPECT_EQ(result.steps.at(0).reason, plan::Reason::kSimulationUnstable);
-  EXPECT_EQ(result.steps.at(0).detail,
-            "the simulation became unstable as the fingers took hold: made up");
+  EXPECT_EQ(result.steps.at(0).detail, "the simulation diverges while the fingers grasp: made up");
 }
 
 TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
@@ -124,7 +123,7 @@ TEST(MonitorOfAReplay, WhatDoesNotComeToRestHasMovedHoweverFarItCame) {
   const MotionMonitor& monitor = held.world.monitor();
   EXPECT_LT(monitor.moved_m(), options.tolerance * held.world.settings().diameter_m);
   EXPECT_EQ(monitor.reason(), plan::Reason::kObjectMoved);
-  EXPECT_THAT(monitor.detail(), HasSubstr("did not come to rest"));
+  EXPECT_THAT(monitor.detail(), HasSubstr("does not settle"));
 }
 
 /// Expect that the first step of a plan passes at a tolerance slightly above its motion and slip.

@@ -239,7 +239,7 @@ TEST(PlanOnContour, SaysNoExactlyWhereTheSetsAreNotJoined) {
           } else {
             ++apart;
             EXPECT_EQ(result.status, Status::kNoSequence) << name;
-            EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns leads"));
+            EXPECT_THAT(result.message, HasSubstr("no sequence of switches and sliding steps"));
           }
         }
       }

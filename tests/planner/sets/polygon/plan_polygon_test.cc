@@ -240,7 +240,7 @@ TEST(PlanOnPolygon, SaysTheSizesOfTheComponentsWhereThereIsNoSequence) {
         PlanWith(PolygonPlanner(), polygon, Given(start), Given(goal), RequestAt(kDegrees));
     EXPECT_EQ(result.status, Status::kNoSequence);
     EXPECT_FALSE(result.plan.has_value());
-    EXPECT_THAT(result.message, HasSubstr("no sequence of switches and aligns"));
+    EXPECT_THAT(result.message, HasSubstr("no sequence of switches and sliding steps"));
     for (const sets::SetIndex vertex : {v, sets::SetIndex(0)}) {
       const int size = components.sizes[components.of_vertex[vertex]];
       EXPECT_THAT(result.message, HasSubstr(std::to_string(size)));
