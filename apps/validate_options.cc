@@ -324,25 +324,37 @@ void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
 
 void AddVideo(CLI::App& app, std::string& video) {
   const auto parse = [&video](const std::string& file) {
-    if (!render::FindAnimationFormat(file)) {
+    if (!render::FindAnimationFormat(file) && !file.ends_with(".html")) {
       throw CLI::ValidationError(
-          "--video", "expected a name that ends in .mp4, .gif or .webp, found \"" + file + "\"");
+          "--video",
+          "expected a name that ends in .mp4, .gif, .webp or .html, found \"" + file + "\"");
     }
     video = file;
   };
   app.add_option_function<std::string>("--video", parse,
-                                       "Write an animation of the replay to this file. .mp4 "
-                                       "(H.264), .gif or .webp; the HTML report shows it unless "
-                                       "--animate is given")
+                                       "Write the replay to this file. .mp4 (H.264), .gif or "
+                                       ".webp: an animation, which the HTML report also shows "
+                                       "unless --animate is given; .html: the interactive 3-D "
+                                       "replay")
       ->type_name("FILE");
 }
 
 constexpr char kAnimationSize[] = "--size animation";
 
 void AddPictures(CLI::App& app, ValidateOptions& options) {
-  AddChoice<Frames>(app, "--frames", options.frames,
-                    {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}},
-                    "Which plans and grasps get frames [default: all; none for a file of plans]");
+  ListOption("--frames", &options.settings)
+      .Values("all, failed or none",
+              {ChoiceParser<Frames>(
+                  options.frames,
+                  {{"all", Frames::kAll}, {"failed", Frames::kFailed}, {"none", Frames::kNone}})})
+      .Key("viewer",
+           ChoiceParser<ViewerPages>(options.viewer, {{"frames", ViewerPages::kWithFrames},
+                                                      {"all", ViewerPages::kAll},
+                                                      {"none", ViewerPages::kNone}}))
+      .AddTo(app, "all|failed|none[,viewer=frames|all|none]",
+             "Which plans and grasps get frames [default: all; none for a file of plans]\n"
+             "viewer=frames|all|none: HTML reports with the interactive 3-D replay, those with "
+             "frames by default");
   ListOption("--show")
       .Word("focus", [&options] { options.frame.show_focus = true; })
       .Word("clusters", [&options] { options.show_clusters = true; })

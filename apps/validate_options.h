@@ -30,6 +30,9 @@ inline constexpr char kStandardStream[] = "-";
 /// Plans and grasps that get frames.
 enum class Frames { kAll, kFailed, kNone };
 
+/// HTML reports that contain the interactive 3-D replay.
+enum class ViewerPages { kWithFrames, kAll, kNone };
+
 /// Options of `validate`.
 struct ValidateOptions {
   /// file of the object; for plans also a folder with the file that each names
@@ -84,6 +87,7 @@ struct ValidateOptions {
   int workers;  ///< number of threads that draw frames
   int sheet_width = render::kOverviewWidth;
   Frames frames = Frames::kAll;
+  ViewerPages viewer = ViewerPages::kWithFrames;
   bool animate = false;
   bool show_clusters = false;
   bool certificates = false;
@@ -115,9 +119,16 @@ struct ValidateOptions {
   [[nodiscard]] bool for_grasp() const { return !grasp_path.empty(); }
   [[nodiscard]] bool for_grasps() const { return !grasps_path.empty(); }
   [[nodiscard]] bool for_states() const { return states > 0; }
-  [[nodiscard]] bool animates() const { return animate || !video.empty(); }
+  /// Whether --video names a page with the interactive 3-D replay.
+  [[nodiscard]] bool video_is_page() const { return video.ends_with(".html"); }
+  [[nodiscard]] bool animates() const { return animate || (!video.empty() && !video_is_page()); }
   [[nodiscard]] bool draws_frames(bool passed) const {
     return frames == Frames::kAll || (frames == Frames::kFailed && !passed);
+  }
+  /// Whether the HTML report contains the interactive 3-D replay.
+  [[nodiscard]] bool has_viewer(bool passed) const {
+    return viewer == ViewerPages::kAll ||
+           (viewer == ViewerPages::kWithFrames && draws_frames(passed));
   }
   /// Path of the plan, the grasp or the grasps; for reset states, of the object.
   [[nodiscard]] const std::string& InputPath() const;

@@ -12,6 +12,7 @@
 
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
+#include "apps/hand_recorder.h"
 #include "apps/locked_output_folder.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
@@ -24,9 +25,11 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/body_measures.h"
 #include "planner/plan/plan_io.h"
+#include "render/viewer/viewer_scene.h"
 #include "report/failure.h"
 #include "report/markup.h"
 #include "report/page/report_page.h"
+#include "report/pictures/replay_viewer.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"
 #include "sim/actuation/hand_world.h"
@@ -50,6 +53,7 @@ struct ReplayRecord {
   std::vector<plan::Snapshot> trajectory;  ///< trajectory of a replay by ideal fingers
   std::vector<plan::Snapshot> animation;   ///< animation samples of a replay by ideal fingers
   sim::HandTrajectory hand_trajectory;     ///< trajectory of a replay by a hand
+  HandRecorder viewer;                     ///< states of a replay by a hand for the 3-D replay
   std::vector<sim::SceneKey> rests;        ///< keyframes of a replay by a hand
 };
 
@@ -57,7 +61,10 @@ struct ReplayRecord {
 sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& plan,
                              ReplayRecord& record) {
   sim::ReplayObserver observer;
-  observer.on_progress = [&record](int, int) { record.step_seconds.push_back(record.step.Lap()); };
+  observer.on_progress = [&record](int, int) {
+    record.step_seconds.push_back(record.step.Lap());
+    record.viewer.EndEntry();
+  };
   const bool trajectory = !options.trajectory.empty();
   const bool animate = options.animates();
   // The duration of a replay depends on the object, so an animation requires all states to select
@@ -71,9 +78,12 @@ sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& p
       if (animate) record.animation.push_back(snapshot);
     };
   }
-  if (trajectory) {
-    observer.on_time_step = [&record](const sim::HandWorld& world) {
-      record.hand_trajectory.Add(world);
+  // Whether the plan passes is not known yet.
+  const bool viewer = options.video_is_page() || options.has_viewer(/*passed=*/false);
+  if (trajectory || viewer) {
+    observer.on_time_step = [trajectory, viewer, &record](const sim::HandWorld& world) {
+      if (trajectory) record.hand_trajectory.Add(world);
+      if (viewer) record.viewer.Add(world);
     };
   }
   if (!options.mjcf.empty()) {
@@ -161,7 +171,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   frame.crop = options.animation_crop;
   std::vector<MovingFile> files;
   if (options.animate) files.push_back({folder / kAnimationName, render::AnimationFormat::kWebp});
-  if (!options.video.empty()) {
+  if (!options.video.empty() && !options.video_is_page()) {
     files.push_back({options.video, *render::FindAnimationFormat(options.video)});
   }
   DrawingCount count("drawing the animation", options.quiet);
@@ -178,8 +188,8 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   std::vector<report::PagePicture> pictures;
   std::optional<report::HandPicture> seen;
   const bool frames = options.draws_frames(report.passed());
-  const bool draws = frames || options.animates();
-  if (task.shared.hand && draws) {
+  const bool viewer = options.video_is_page() || options.has_viewer(report.passed());
+  if (task.shared.hand && (frames || viewer || options.animates())) {
     seen.emplace(*task.shared.hand, task.plan, task.plan.scale * object.mass_properties().centroid);
   }
   const report::HandPicture* hand = seen ? &*seen : nullptr;
@@ -191,7 +201,17 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
   }
   report::PagePicture moving;
   if (options.animates()) moving = Animate(options, frame, task, hand, record, folder, report);
-  WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving));
+  std::string replay;
+  if (viewer) {
+    replay = render::FormatViewerScene(report::MakeViewerScene(
+        object, task.plan, {.frame = frame, .hand = hand}, record.viewer.samples(), report));
+  }
+  if (options.video_is_page()) {
+    WriteFile(options.video, report::FormatViewerHtml(report, task.plan, replay));
+  }
+  if (!options.has_viewer(report.passed())) replay.clear();
+  WriteFile(folder / kPageName,
+            report::FormatReportHtml(report, task.plan, pictures, moving, replay));
 }
 
 /// Check that no file of the run was removed.

@@ -65,4 +65,4 @@ set(regrasp_public_headers
 )
 
 # Libraries without a public header are not installed: what draws, writes pages and runs batches.
-set(regrasp_private_libraries picture frames figures render page pictures batch)
+set(regrasp_private_libraries picture frames viewer figures render page pictures batch)

@@ -1,19 +1,12 @@
 #include "report/page/html_page.h"
 
-#include <openssl/evp.h>
-
 #include "page_style.h"
+#include "render/viewer/viewer_scene.h"
 
 namespace regrasp::report {
 
 std::string DataUri(std::string_view media_type, std::string_view bytes) {
-  // Three bytes become four characters; the encoder adds a zero.
-  std::string base64((bytes.size() + 2) / 3 * 4 + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()),
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   static_cast<int>(bytes.size()));
-  base64.resize(size);
-  return "data:" + std::string(media_type) + ";base64," + base64;
+  return "data:" + std::string(media_type) + ";base64," + render::Base64(bytes);
 }
 
 std::string PathUri(std::string_view path) {
@@ -34,25 +27,37 @@ std::string PathUri(std::string_view path) {
 
 namespace {
 
-std::string Policy(PictureSource pictures) {
-  const std::string policy =
+/// Return the text of a script element, which is the same in HTML and in XML.
+std::string ScriptText(std::string_view script) {
+  return "//<![CDATA[\n" + std::string(script) + "\n//]]>";
+}
+
+std::string Policy(PictureSource pictures, const std::vector<std::string>& scripts) {
+  std::string policy =
       "default-src 'none'; style-src 'unsafe-inline'; media-src data:; img-src data:";
   // Some browsers give a file no site of its own.
-  return policy + (pictures == PictureSource::kOwnSite ? " 'self' file:" : "");
+  if (pictures == PictureSource::kOwnSite) policy += " 'self' file:";
+  if (!scripts.empty()) policy += "; script-src";
+  for (const std::string& script : scripts) policy += " '" + render::ScriptHash(script) + "'";
+  return policy;
 }
 
 }  // namespace
 
 std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
-                           PictureSource pictures) {
+                           PictureSource pictures, std::span<const std::string_view> scripts) {
+  std::vector<std::string> texts;
+  for (const std::string_view script : scripts) texts.push_back(ScriptText(script));
   Element style("style");
   style.AddVerbatim(kPageStyle);
   const std::vector<Element> head = {
       Element("meta", {{"charset", "utf-8"}}),
-      Element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", Policy(pictures)}}),
+      Element("meta",
+              {{"http-equiv", "Content-Security-Policy"}, {"content", Policy(pictures, texts)}}),
       Element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}),
       Element("title", {}, title), style};
-  const std::vector<Element> main = {Element("main", {}, parts)};
+  std::vector<Element> main = {Element("main", {}, parts)};
+  for (const std::string& text : texts) main.emplace_back("script").AddVerbatim(text);
   const std::vector<Element> page = {Element("head", {}, head), Element("body", {}, main)};
   const Attributes language = {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}};
   return "<!DOCTYPE html>\n" + Element("html", language, page).Format() + "\n";

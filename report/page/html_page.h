@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,11 +23,15 @@ enum class PictureSource {
   kOwnSite,  ///< also files in the folder of the page
 };
 
-/// Return an HTML page in the style of report pages. It runs no scripts, whatever its content.
-/// The page is also well-formed XML.
-/// @param parts  elements of the page, from top to bottom.
+/// Return an HTML page in the style of report pages.
+///
+/// Its content security policy permits no scripts but the given ones, by their digests, and no
+/// requests. The page is also well-formed XML.
+/// @param parts    elements of the page, from top to bottom.
+/// @param scripts  scripts that run after the page was read; never text from input.
 [[nodiscard]] std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
-                                         PictureSource pictures = PictureSource::kInPage);
+                                         PictureSource pictures = PictureSource::kInPage,
+                                         std::span<const std::string_view> scripts = {});
 
 /// Return the head of a page: its kind in small letters, its subject, and the verdict with a
 /// summary.

@@ -7,6 +7,7 @@
 
 #include "planner/base/number.h"
 #include "render/picture/caption.h"
+#include "render/viewer/viewer_scripts.h"
 #include "report/failure.h"
 #include "report/page/facts.h"
 #include "report/page/html_page.h"
@@ -21,34 +22,59 @@ namespace {
 class Page {
  public:
   Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures,
-       const PagePicture& moving)
+       const PagePicture& moving, std::string_view viewer)
       : report_(report),
         plan_(plan),
         pictures_(pictures),
         moving_(moving),
+        viewer_(viewer),
         measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
+      if (!step.skipped && HasPicture(step.check.index)) still_ = step.check.index;
     }
+    if (!failed_ && viewer.empty()) still_.reset();
   }
 
   [[nodiscard]] std::string Format() const {
     Parts all;
     for (const Parts& parts :
-         {Parts{Header()}, FailedFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
+         {Parts{Header()}, Viewer(), StillFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
           MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
           MakeGoalSection(report_), MakeFindings(report_), MakeEngineSection(report_),
           MakeConditionSection(report_), Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
-    const std::string extent = Extent();
-    return FormatHtmlPage((report_.passed() ? "Pass" : "Fail") +
-                              (extent.empty() ? "" : " " + extent) + ": " + report_.plan_file,
-                          all);
+    return FormatPage(all);
+  }
+
+  [[nodiscard]] std::string FormatViewer() const {
+    Parts all = Viewer();
+    all.insert(all.begin(), Header());
+    return FormatPage(all);
   }
 
  private:
   using Parts = std::vector<Element>;
+
+  [[nodiscard]] std::string FormatPage(const Parts& parts) const {
+    const std::string extent = Extent();
+    const std::string title = (report_.passed() ? "Pass" : "Fail") +
+                              (extent.empty() ? "" : " " + extent) + ": " + report_.plan_file;
+    if (viewer_.empty()) return FormatHtmlPage(title, parts);
+    return FormatHtmlPage(title, parts, PictureSource::kInPage, render::ViewerScripts());
+  }
+
+  /// The replay is hidden until its script runs. The data are not a script that could run.
+  [[nodiscard]] Parts Viewer() const {
+    if (viewer_.empty()) return {};
+    Element data("script", {{"type", "application/json"}, {"id", "viewer-data"}});
+    data.AddVerbatim(viewer_);
+    return {Element("div", {{"id", "viewer"}, {"class", "viewer"}, {"tabindex", "0"}}),
+            Element("p", {{"class", "note no-viewer"}},
+                    "The interactive 3-D replay requires JavaScript and WebGL."),
+            data};
+  }
 
   [[nodiscard]] Element Header() const {
     return PageHeader(report_.grasp ? "Validation of a grasp" : "Validation of a regrasp plan",
@@ -182,16 +208,18 @@ class Page {
     return anchors;
   }
 
-  /// The image of the failure comes first, and large.
-  [[nodiscard]] Parts FailedFrame() const {
-    if (!failed_ || !HasPicture(*failed_)) return {};
-    return {Element("div", {{"class", "failure"}}, Parts{Frame(report_.steps[*failed_])})};
+  /// The image of the failure comes first, and large. Without a failure an image comes first only
+  /// in place of the replay.
+  [[nodiscard]] Parts StillFrame() const {
+    if (!still_) return {};
+    return {Element("div", {{"class", failed_ ? "failure" : "still"}},
+                    Parts{Frame(report_.steps[*still_])})};
   }
 
   [[nodiscard]] Parts Frames() const {
     Parts frames;
     for (const ReportStep& step : report_.steps) {
-      if (HasPicture(step.check.index) && step.check.index != failed_) {
+      if (HasPicture(step.check.index) && step.check.index != still_) {
         frames.push_back(Frame(step));
       }
     }
@@ -258,16 +286,24 @@ class Page {
   const plan::Plan& plan_;
   const std::vector<PagePicture>& pictures_;
   const PagePicture& moving_;
+  std::string_view viewer_;
   std::vector<StepMeasures> measures_;
   std::optional<plan::EntryIndex> failed_;
+  std::optional<plan::EntryIndex> still_;  ///< entry of the image below the verdict
 };
 
 }  // namespace
 
 std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
-                             const std::vector<PagePicture>& pictures, const PagePicture& moving) {
+                             const std::vector<PagePicture>& pictures, const PagePicture& moving,
+                             std::string_view viewer) {
   assert(pictures.empty() || pictures.size() == report.steps.size());
-  return Page(report, plan, pictures, moving).Format();
+  return Page(report, plan, pictures, moving, viewer).Format();
+}
+
+std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
+                             std::string_view viewer) {
+  return Page(report, plan, {}, {}, viewer).FormatViewer();
 }
 
 int PagePictureWidth(int count) {

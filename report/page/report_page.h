@@ -19,18 +19,26 @@ struct PagePicture {
   bool own_view = false;  ///< whether the camera differs from that of the other images
 };
 
-/// Return the text of report.html, a page without scripts that needs no other file.
-/// It has the verdict, settings, plots of displacement and friction margin over the steps, a table
-/// with one line per step, and the images.
+/// Return the text of report.html, a page that needs no other file.
+/// It has the verdict, the interactive 3-D replay, settings, plots of displacement and friction
+/// margin over the steps, a table with one line per step, and the images. Without scripts or WebGL
+/// an image replaces the replay.
 ///
-/// External text is escaped, and the page's own header forbids scripts and requests. The page is
-/// also well-formed XML. The same report gives the same bytes.
+/// External text is escaped. The page's own header forbids requests and all scripts but those of
+/// the replay. The page is also well-formed XML. The same report gives the same bytes.
 /// @param plan      plan of the report, for the names of steps.
 /// @param pictures  one image per entry of the report, or none at all.
 /// @param moving    animation of the replay, if there is one; omitted in print.
+/// @param viewer    data of the interactive replay (render::FormatViewerScene); empty: none.
 [[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                                            const std::vector<PagePicture>& pictures,
-                                           const PagePicture& moving = {});
+                                           const PagePicture& moving = {},
+                                           std::string_view viewer = "");
+
+/// Return a page with the verdict and the interactive 3-D replay only.
+/// @param viewer  data of the replay (render::FormatViewerScene).
+[[nodiscard]] std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
+                                           std::string_view viewer);
 
 /// Return the width of an image in pixels with which a page of `count` images can be sent by mail.
 [[nodiscard]] int PagePictureWidth(int count);

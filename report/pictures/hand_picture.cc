@@ -144,6 +144,8 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
   X_WP_.translation() = centroid_m - X_WP_.linear() * (states_.front().pose * centroid_m);
 }
 
+double HandPicture::Distance(const HandState& a, const HandState& b) { return MotionBetween(a, b); }
+
 bool HandPicture::Fits(const HandState& state) const {
   return std::ranges::equal(state.joints, hand_.fingers, {}, &std::vector<double>::size,
                             [](const kinematics::Finger& finger) { return finger.joints.size(); });
@@ -194,10 +196,25 @@ std::vector<Vector3d> HandPicture::Reached(const plan::Snapshot& snapshot) const
   return points;
 }
 
-void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot,
-                        plan::Fault& fault) const {
-  const HandState& state =
-      fault.hand && Fits(fault.hand->state) ? fault.hand->state : states_[entry];
+std::vector<HandState> HandPicture::StatesAlong(plan::EntryIndex entry) const {
+  std::vector<HandState> states = {states_[entry == 0 ? 0 : int{entry} - 1]};
+  if (entry == 0) return states;
+  for (const plan::HandPath* path : plan::PathsOf(plan::StepOf(plan_, entry))) {
+    if (path->empty()) continue;
+    if (!std::ranges::all_of(*path, [this](const HandState& state) { return Fits(state); })) {
+      continue;
+    }
+    for (const auto& [state, share] : Spread(*path)) states.push_back(state);
+    states.push_back(path->back());
+  }
+  return states;
+}
+
+void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault,
+                        const HandState* actual) const {
+  const HandState& state = fault.hand && Fits(fault.hand->state) ? fault.hand->state
+                           : actual != nullptr                   ? *actual
+                                                                 : states_[entry];
   if (fault.X_WO_before) fault.X_WO_before = X_WP_ * state.pose * *fault.X_WO_before;
   if (fault.hand && fault.hand->pose) fault.X_WO_before = X_WP_ * *fault.hand->pose;
   Stand(state, snapshot);

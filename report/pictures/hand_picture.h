@@ -23,9 +23,26 @@ class HandPicture {
 
   [[nodiscard]] const std::shared_ptr<const render::HandView>& view() const { return view_; }
 
+  [[nodiscard]] const kinematics::HandModel& hand() const { return hand_; }
+  [[nodiscard]] const Eigen::Isometry3d& X_WP() const { return X_WP_; }
+  /// Return the planned state of hand and object at the end of an entry.
+  [[nodiscard]] const plan::HandState& EndOf(plan::EntryIndex entry) const {
+    return states_[entry];
+  }
+  /// Return the planned states of an entry from its start to its end, evenly spaced in joint angle
+  /// and object motion.
+  [[nodiscard]] std::vector<plan::HandState> StatesAlong(plan::EntryIndex entry) const;
+
+  /// Return whether a state has the joints of the hand.
+  [[nodiscard]] bool Fits(const plan::HandState& state) const;
+  /// Return the length of the motion between two states, in frames of an animation.
+  [[nodiscard]] static double Distance(const plan::HandState& a, const plan::HandState& b);
+
   /// Place the snapshot of the end of an entry at the poses of object and hand at that time.
   /// If the check of the hand failed, they are those of the failing instant.
-  void Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault) const;
+  /// @param actual  replayed state at the end of the entry; null: the planned state.
+  void Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault,
+             const plan::HandState* actual = nullptr) const;
 
   /// Return hand and object at instants between the ends of the previous entry and of this one.
   /// The instants are evenly spaced in joint angle and object motion. Until fingers break contact,
@@ -41,7 +58,6 @@ class HandPicture {
 
  private:
   void Stand(const plan::HandState& state, plan::Snapshot& snapshot) const;
-  [[nodiscard]] bool Fits(const plan::HandState& state) const;
   [[nodiscard]] std::vector<plan::HandState> StatesOf(const plan::Plan& plan) const;
 
   const plan::Plan& plan_;

@@ -49,16 +49,10 @@ render::OverviewLabel MakeHeading(const Report& report) {
   return {HeadingText(report), "", report.passed() ? kGood : kBad};
 }
 
-/// Entry that has a frame: the displayed state, and marks at the fault if it failed.
-struct Shown {
-  const ReportStep* step;
-  plan::Snapshot snapshot;
-  std::optional<render::FaultMarks> marks = std::nullopt;
-};
-
 /// Return the replayed state at the failure, or the planned state if the replay did not reach it.
-Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const ReportStep& step,
-                  const Report& report, const HandPicture* hand) {
+ShownEntry ShowFailure(const object::Object& object, const plan::Plan& plan, const ReportStep& step,
+                       const Report& report, const HandPicture* hand,
+                       const plan::HandState* actual) {
   const plan::Reason reason = step.reason();
   const bool seen = step.replay && !step.replay->snapshot.fingers.empty() &&
                     reason != plan::Reason::kUnreachable &&
@@ -68,14 +62,14 @@ Shown ShowFailure(const object::Object& object, const plan::Plan& plan, const Re
   plan::Snapshot snapshot = seen ? step.replay->snapshot
                                  : plan::MakePlannedSnapshot(plan::ProjectPlan(object, plan),
                                                              step.check.index, fault, radius);
-  if (hand != nullptr) hand->Place(step.check.index, snapshot, fault);
+  if (hand != nullptr) hand->Place(step.check.index, snapshot, fault, actual);
   render::FaultScene picture =
       render::MakeFaultScene(object, report.scale, reason, fault, snapshot, step.detail());
   return {&step, std::move(picture.snapshot), std::move(picture.marks)};
 }
 
-Shown ShowSound(const ReportStep& step, const HandPicture* hand) {
-  Shown shown{&step, step.replay->snapshot};
+ShownEntry ShowSound(const ReportStep& step, const HandPicture* hand) {
+  ShownEntry shown{&step, step.replay->snapshot};
   plan::Fault none;
   if (hand != nullptr) hand->Place(step.check.index, shown.snapshot, none);
   return shown;
@@ -96,17 +90,6 @@ std::vector<std::vector<plan::Snapshot>> ShowMotions(const HandPicture& hand,
   return motions;
 }
 
-std::vector<Shown> ShowEntries(const object::Object& object, const plan::Plan& plan,
-                               const HandPicture* hand, const Report& report) {
-  std::vector<Shown> shown;
-  for (const ReportStep& step : report.steps) {
-    if (step.skipped) continue;
-    shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report, hand)
-                                 : ShowSound(step, hand));
-  }
-  return shown;
-}
-
 /// Add grey cells for the steps after a failure. The last cell represents all further steps.
 void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
   const auto first = std::ranges::find_if(report.steps, &ReportStep::skipped);
@@ -121,9 +104,10 @@ void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
 
 /// Make the renderer of the frames and the animation of a report, which share a camera.
 render::FrameRenderer MakeRenderer(const object::Object& object, const Report& report,
-                                   const std::vector<Shown>& shown, render::FrameOptions options) {
+                                   const std::vector<ShownEntry>& shown,
+                                   render::FrameOptions options) {
   std::vector<plan::Snapshot> snapshots;
-  for (const Shown& entry : shown) {
+  for (const ShownEntry& entry : shown) {
     snapshots.push_back(entry.snapshot);
     if (!entry.marks) continue;
     options.also_seen = render::ExtentOf(*entry.marks, report.scale * object.diameter());
@@ -138,6 +122,18 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
 
 }  // namespace
 
+std::vector<ShownEntry> ShowEntries(const object::Object& object, const plan::Plan& plan,
+                                    const HandPicture* hand, const Report& report,
+                                    const plan::HandState* actual) {
+  std::vector<ShownEntry> shown;
+  for (const ReportStep& step : report.steps) {
+    if (step.skipped) continue;
+    shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report, hand, actual)
+                                 : ShowSound(step, hand));
+  }
+  return shown;
+}
+
 int CountFrames(const Report& report) {
   return static_cast<int>(std::ranges::count(report.steps, false, &ReportStep::skipped));
 }
@@ -145,7 +141,7 @@ int CountFrames(const Report& report) {
 render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                          const DrawingOptions& options, const Report& report,
                          const std::function<void(const DrawnFrame&)>& take) {
-  const std::vector<Shown> shown = ShowEntries(object, plan, options.hand, report);
+  const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
   render::FrameOptions frame = options.frame;
@@ -176,7 +172,7 @@ MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& pla
                              const std::vector<plan::Snapshot>& samples,
                              const std::vector<render::AnimationFormat>& formats,
                              const Report& report) {
-  const std::vector<Shown> shown = ShowEntries(object, plan, options.hand, report);
+  const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report);
   std::vector<std::vector<plan::Snapshot>> motions;
   if (options.hand != nullptr) motions = ShowMotions(*options.hand, report);
   std::vector<render::AnimationPause> rests;

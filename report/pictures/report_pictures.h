@@ -1,11 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/object/object.h"
 #include "planner/plan/plan.h"
+#include "planner/plan/projection.h"
+#include "render/frames/fault_marks.h"
 #include "render/frames/frame.h"
 #include "render/frames/overview_image.h"
 #include "render/picture/animation.h"
@@ -30,6 +33,22 @@ struct DrawnFrame {
   const render::Image& image;
   bool own_view = false;  ///< whether its camera differs from that of the rest
 };
+
+/// Entry that has a frame: the displayed state, and marks at the fault if it failed.
+struct ShownEntry {
+  const ReportStep* step;
+  plan::Snapshot snapshot;
+  std::optional<render::FaultMarks> marks = std::nullopt;
+};
+
+/// Return the displayed states of all entries up to the failed one, which refer to the report.
+/// The failed entry has the replayed state, or the planned state if it was not replayed.
+/// @param hand    hand of the plan; null: fingers without a hand.
+/// @param actual  replayed state of the hand at a failure; null: the planned state.
+[[nodiscard]] std::vector<ShownEntry> ShowEntries(const object::Object& object,
+                                                  const plan::Plan& plan, const HandPicture* hand,
+                                                  const Report& report,
+                                                  const plan::HandState* actual = nullptr);
 
 /// Return the number of entries that have a frame: all up to the failed entry.
 [[nodiscard]] int CountFrames(const Report& report);

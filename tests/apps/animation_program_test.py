@@ -87,7 +87,7 @@ class Animation(ProgramCase):
         self.assert_refused(2, "--size animation: expected WxH",
                             *self.of_grasp("--animate", "--size", "animation=1x1"))
         for name in ("film.avi", "film", "-", "film.mp4.txt"):
-            self.assert_refused(2, ["--video", f'"{name}"', ".mp4, .gif or .webp"],
+            self.assert_refused(2, ["--video", f'"{name}"', ".mp4, .gif, .webp or .html"],
                                 *self.of_grasp("--video", name))
         self.write_json("plan.json", self.plan)
         self.assert_refused(2, "--video: requires a single plan", "--object",

@@ -21,6 +21,16 @@ TEST(HtmlPageTest, APageRunsNothingAndLoadsPicturesFromWhereItSays) {
   EXPECT_THAT(beside, Not(HasSubstr("script-src")));
 }
 
+TEST(HtmlPageTest, ItsPolicyNamesTheDigestOfEachScript) {
+  const std::vector<std::string_view> scripts = {"alert('Hello, world.');", "1 < 2"};
+  const std::string page = FormatHtmlPage("a", {}, PictureSource::kInPage, scripts);
+  // Known answers, computed with openssl dgst -sha256 from the text between the tags.
+  EXPECT_THAT(page, HasSubstr("sha256-QsH3GJ7sU0EkUKxZDt9e6m5C1z3eSL+mbbq50vONYWk="));
+  EXPECT_THAT(page, HasSubstr("sha256-3GE0R05LzWmzBOQIBIN2oo8RXB9+IpDKGhpuNFwrHsg="));
+  EXPECT_THAT(page, HasSubstr("<script>//<![CDATA[\nalert('Hello, world.');\n//]]></script>"));
+  EXPECT_THAT(page, HasSubstr("<script>//<![CDATA[\n1 < 2\n//]]></script>"));
+}
+
 TEST(HtmlPageTest, TheHeaderSaysTheVerdict) {
   const std::string fail = PageHeader("Validation", "<plan>", false, "At step 1.").Format();
   EXPECT_THAT(fail, HasSubstr("<h1>&lt;plan&gt;</h1>"));

@@ -147,6 +147,25 @@ TEST(ReportPageTest, PicturesStandInThePage) {
   EXPECT_THAT(page, HasSubstr("id=\"frame1\" class=\"fail\""));
 }
 
+TEST(ReportPageTest, TheInteractiveReplayFollowsTheVerdict) {
+  for (const bool fails : {false, true}) {
+    const Scene scene(fails);
+    const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
+    const std::string page = FormatReportHtml(scene.report, scene.plan, pictures, {}, "{\"a\":1}");
+    EXPECT_EQ(Count(page, "<script>"), 4);
+    EXPECT_THAT(page, HasSubstr("<script type=\"application/json\" id=\"viewer-data\">{\"a\":1}"));
+    const auto place = [&](const char* part) { return page.find(part); };
+    EXPECT_LT(place("class=\"verdict"), place("id=\"viewer\""));
+    EXPECT_LT(place("id=\"viewer\""), place("<img"));
+    EXPECT_LT(place("<img"), place("<dl"));
+    EXPECT_EQ(Count(page, "<img"), 2);  // each image once
+    EXPECT_EQ(Count(page, "class=\"still\""), fails ? 0 : 1);
+    const std::string only = FormatViewerHtml(scene.report, scene.plan, "{}");
+    EXPECT_EQ(Count(only, "<script>"), 4);
+    EXPECT_EQ(Count(only, "<table"), 0);
+  }
+}
+
 TEST(ReportPageTest, TheReplayMovesOnThePageWhereItWasMade) {
   const Scene scene(/*fails=*/false);
   const std::string page = FormatReportHtml(scene.report, scene.plan, {}, {"abc", 320, 240});

@@ -1,0 +1,269 @@
+"""The interactive 3-D replay that validate writes into its report, in headless Chromium."""
+
+import base64
+import hashlib
+import os
+import re
+import shutil
+import xml.etree.ElementTree as ElementTree
+
+import program_case
+from browser import Browser, NO_WEBGL
+from picture_pixels import png_pixels, png_rows, png_size
+from program_case import ProgramCase
+
+XHTML = "{http://www.w3.org/1999/xhtml}"
+
+# Largest size of a report with the replay and four frames, bytes.
+LARGEST_PAGE = 1_500_000
+
+STATE = "document.getElementById('viewer').dataset"
+RUNNING = "document.getElementById('viewer').classList.contains('running')"
+
+# Hides what covers the scene and changes with time, so that a screenshot shows only the scene.
+SCENE_ONLY = ("document.querySelectorAll('.status, .overlay, .banner')"
+              ".forEach(element => element.style.visibility = 'hidden')")
+
+
+def different_pixels(one, other):
+    """Return the number of pixels that differ between two PNGs of one size."""
+    assert png_size(one) == png_size(other)
+    if one == other:
+        return 0
+    return sum(a != b for row, also in zip(pixels(one), pixels(other)) for a, b in zip(row, also))
+
+
+def pixels(data):
+    if data[25] == 2:
+        return png_pixels(data)
+    raise AssertionError("expected a PNG without transparency")
+
+
+class Viewer(ProgramCase):
+    program = "validate"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        super().setUp()
+        self.browser.resize(600, 900)
+
+    def validate_cube(self, *more, name="plan.json", code=0):
+        plan = self.plan_of_cube()
+        self.write_json(name, plan)
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", name, "--output", "result",
+                                "--size", "320x240", *more)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return plan
+
+    def page(self, name="result/report.html"):
+        return self.read(name).decode()
+
+    def open(self, link="", name="result/report.html", browser=None):
+        browser = browser or self.browser
+        browser.open("file://" + self.path(name) + link)
+        return browser
+
+    def scene(self):
+        self.browser.value(SCENE_ONLY)
+        return self.browser.screenshot("#viewer .stage")
+
+    def number(self, name):
+        return float(self.browser.value(f"{STATE}.{name}"))
+
+    def test_it_opens_without_errors_and_requests_at_the_initial_grasp(self):
+        self.validate_cube()
+        self.open()
+        self.assertEqual(self.browser.console, [])
+        self.assertTrue(self.browser.value(RUNNING))
+        self.assertEqual(self.number("step"), 0)
+        self.assertEqual([url for url in self.browser.requests if not url.startswith(("data:", "file:///"))], [])
+        self.assertEqual(self.browser.value("document.querySelectorAll('.fingers tbody tr').length"), 5)
+        shown = self.scene()
+        colors = {pixel for row in pixels(shown) for pixel in row}
+        self.assertGreater(len(colors), 100)
+        # The image for pages without a viewer joins the other frames.
+        self.assertEqual(self.browser.value("document.querySelectorAll('.still img').length"), 0)
+        self.assertEqual(self.browser.value("document.querySelectorAll('.frames img').length"),
+                         len(self.plan_of_cube()["steps"]) + 1)
+
+    def test_links_keys_and_the_slider_move_the_replay(self):
+        self.validate_cube()
+        self.open("#step=1")
+        self.assertEqual(self.number("step"), 1)
+        first = self.scene()
+        self.open("#step=1")
+        self.assertEqual(different_pixels(first, self.scene()), 0)  # control
+        self.open("#t=3.6")
+        self.assertEqual(self.number("time"), 3.6)
+        self.assertGreater(different_pixels(first, self.scene()), 200)
+        self.browser.press("2")
+        self.assertEqual(self.number("step"), 2)
+        self.assertTrue(self.browser.value("location.hash").endswith("#step=2"))
+        self.browser.press("ArrowLeft")
+        self.assertEqual(self.number("step"), 1)
+        self.browser.press("ArrowRight")
+        self.assertEqual(self.number("step"), 2)
+        self.browser.press("x")
+        self.assertEqual(self.number("step"), 2)
+        before = self.number("time")
+        self.browser.press(" ")
+        self.assertTrue(self.browser.value("document.getElementById('viewer').viewer.playing"))
+        while self.number("time") == before:
+            pass
+        self.browser.press(" ")
+        self.assertFalse(self.browser.value("document.getElementById('viewer').viewer.playing"))
+        self.browser.value("(s => { s.value = 1; s.dispatchEvent(new Event('input')); })"
+                           "(document.querySelector('#viewer input[type=range]'))")
+        self.assertEqual(self.number("time"), 1)
+        self.open("#step=99")
+        self.assertEqual(self.number("step"), 0)
+        self.assertEqual(self.browser.console, [])
+
+    def test_switches_change_the_scene(self):
+        self.validate_cube()
+        self.open("#step=1")
+        before = self.scene()
+        boxes = self.browser.value("document.querySelectorAll('.switches input').length")
+        self.assertEqual(boxes, 7)
+        for box in range(boxes):
+            name = self.browser.value(f"document.querySelectorAll('.switches label')[{box}].textContent")
+            self.browser.value(f"document.querySelectorAll('.switches input')[{box}].click()")
+            if name not in ("Names", "Start pose", "Path"):  # names are hidden, the cube does not move
+                self.assertGreater(different_pixels(before, self.scene()), 50, name)
+            self.browser.value(f"document.querySelectorAll('.switches input')[{box}].click()")
+        self.assertEqual(different_pixels(before, self.scene()), 0)
+
+    def test_a_failed_plan_opens_at_the_failing_instant_with_the_reason(self):
+        self.validate_cube("--friction-angle", "6", code=1)
+        self.open()
+        self.assertEqual(self.browser.console, [])
+        end = self.browser.value("document.getElementById('viewer').viewer.end")
+        self.assertAlmostEqual(self.number("time"), end, 2)
+        banner = "getComputedStyle(document.querySelector('.banner')).display"
+        self.assertEqual(self.browser.value(banner), "block")
+        detail = next(step["detail"] for step in self.report()["steps"] if step["verdict"] == "fail")
+        self.assertEqual(self.browser.value("document.querySelector('.banner').textContent"), detail)
+        self.browser.press("ArrowLeft")
+        self.assertEqual(self.browser.value(banner), "none")
+
+    def test_a_hand_turns_the_object(self):
+        self.assert_done("--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"), "--scale",
+                         "0.8", "--mu", "0.8", "--turn", "z 30", "--output", "turn.json", program="plan")
+        self.run_program("--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"),
+                         "--plan", "turn.json", "--output", "result", "--frames", "none,viewer=all")
+        self.open("#t=0.5")
+        self.assertEqual(self.browser.console, [])
+        first = self.scene()
+        line = "document.querySelector('.status span').textContent"
+        self.assertRegex(self.browser.value(line), r"rotated -?[0-9.]+° of 30\.0°")
+        self.browser.value("document.getElementById('viewer').viewer.setTime(1e9)")
+        turned = float(re.search(r"rotated ([0-9.]+)°", self.browser.value(line))[1])
+        self.assertAlmostEqual(turned, 30, delta=3)
+        self.assertGreater(different_pixels(first, self.scene()), 2000)
+        # The angle is that of the object in the data, not only a text.
+        angle = ("(q => 2 * Math.acos(Math.min(1, Math.abs(q.w))) * 180 / Math.PI)"
+                 "(document.getElementById('viewer').viewer.scene.object.quaternion.clone().multiply("
+                 "document.getElementById('viewer').viewer.scene.ghost.quaternion.clone().inverse()))")
+        self.assertAlmostEqual(self.browser.value(angle), turned, delta=1)
+
+    def test_it_fits_a_phone(self):
+        self.validate_cube()
+        self.browser.resize(390, 844)
+        self.open()
+        self.assertTrue(self.browser.value(RUNNING))
+        self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
+        sides = "(b => [b.left, b.right])(document.querySelector('#viewer .bar').getBoundingClientRect())"
+        left, right = self.browser.value(sides)
+        self.assertGreaterEqual(left, 0)
+        self.assertLessEqual(right, 390)
+
+    def test_it_has_a_dark_scheme_and_is_not_printed(self):
+        self.validate_cube()
+        ground = "getComputedStyle(document.documentElement).backgroundColor"
+        self.open()
+        self.assertEqual(self.browser.value(ground), "rgb(255, 255, 255)")
+        self.browser.resize(1000, 1000, dark=True)
+        self.open()
+        self.assertEqual(self.browser.value(ground), "rgb(20, 24, 31)")
+        self.browser.resize(1000, 1000, dark=True, media="print")
+        self.assertEqual(self.browser.value(ground), "rgb(255, 255, 255)")
+        self.assertEqual(self.browser.value("getComputedStyle(document.getElementById('viewer')).display"), "none")
+
+    def assert_shows_a_picture_instead(self, browser):
+        self.assertFalse(browser.value(RUNNING))
+        self.assertEqual(browser.value("getComputedStyle(document.getElementById('viewer')).display"), "none")
+        self.assertEqual(browser.value("document.querySelectorAll('.still img').length"), 1)
+        self.assertNotEqual(browser.value("getComputedStyle(document.querySelector('.no-viewer')).display"), "none")
+
+    def test_a_picture_replaces_it_without_webgl_without_scripts_and_with_a_wrong_hash(self):
+        self.validate_cube()
+        without = Browser(NO_WEBGL)
+        self.addCleanup(without.close)
+        self.open(browser=without)
+        self.assert_shows_a_picture_instead(without)
+        page = self.page()
+        self.write("none.html", re.sub(r"(?s)<script>.*?</script>", "", page))
+        self.assert_shows_a_picture_instead(self.open(name="none.html"))
+        hashes = re.findall(r"sha256-[^&]+", page)
+        self.assertEqual(len(hashes), 4)
+        self.write("wrong.html", page.replace(hashes[3], "sha256-" + "A" * 43 + "="))
+        self.assert_shows_a_picture_instead(self.open(name="wrong.html"))
+        self.assertIn("Content Security Policy", " ".join(self.browser.console))
+        self.write("more.html", page.replace("</main>", "</main><script>document.title = 'evil'</script>"))
+        self.assertNotEqual(self.open(name="more.html").value("document.title"), "evil")
+        self.assertTrue(self.browser.value(RUNNING))  # control: the viewer itself runs
+
+    def test_the_policy_permits_exactly_the_scripts_of_the_page(self):
+        self.validate_cube()
+        page = self.page()
+        tree = ElementTree.fromstring(page.replace("<!DOCTYPE html>", "", 1))
+        policy = next(meta.get("content") for meta in tree.iter(XHTML + "meta")
+                      if meta.get("http-equiv") == "Content-Security-Policy")
+        self.assertTrue(policy.startswith("default-src 'none'; "))
+        self.assertNotIn("unsafe-eval", policy)
+        self.assertNotRegex(policy, "script-src[^;]*unsafe")
+        scripts = re.findall(r"(?s)<script>(.*?)</script>", page)
+        expected = ["'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+                    for text in scripts]
+        self.assertEqual(policy.split("script-src ")[1].split(), expected)
+
+    def test_names_are_text(self):
+        name = "<img src=x onerror=document.title='evil'>\"'&.obj"
+        shutil.copy(self.model("cube.obj"), self.path(name))
+        plan = self.plan_of_cube()
+        plan["object"]["file"] = name
+        self.write_json("</i><b>'\".json".replace("/", ""), plan)
+        self.assert_done("--object", name, "--plan", "<i><b>'\".json", "--output", "result", "--size", "320x240")
+        ElementTree.fromstring(self.page().replace("<!DOCTYPE html>", "", 1))
+        self.open()
+        self.assertEqual(self.browser.console, [])
+        self.assertTrue(self.browser.value(RUNNING))
+        self.assertEqual(self.browser.value("document.querySelectorAll('img[src=x]').length"), 0)
+
+    def test_options_decide_which_pages_have_it(self):
+        self.validate_cube()
+        page = self.page()
+        self.assertLess(len(page.encode()), LARGEST_PAGE)
+        self.assertEqual(page.count("<script>"), 4)
+        self.validate_cube()
+        self.assertEqual(self.page(), page)  # the same bytes
+        for frames, scripts in (("none", 0), ("all,viewer=none", 0), ("none,viewer=all", 4), ("failed", 0),
+                                ("viewer=frames", 4)):
+            self.validate_cube("--frames", frames)
+            self.assertEqual(self.page().count("<script>"), scripts, frames)
+        self.validate_cube("--frames", "none", "--video", "replay.html")
+        self.assertEqual(self.page().count("<script>"), 0)
+        self.open(name="replay.html")
+        self.assertTrue(self.browser.value(RUNNING))
+        self.assertEqual(self.browser.console, [])
+        done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--frames", "viewer=some")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--frames viewer", done.stderr)
+
+
+if __name__ == "__main__":
+    program_case.main()
