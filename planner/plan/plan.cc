@@ -130,7 +130,7 @@ HandState StateAfter(const HandState& before, const Step& step) {
 }
 
 HandEnd EndOfPlan(const Plan& plan) {
-  if (!plan.hand) throw std::invalid_argument("the plan has no hand");
+  if (!plan.hand) throw std::invalid_argument("the plan is not for a hand");
   HandEnd end{plan.hand->initial, plan.initial};
   for (const Step& step : plan.steps) {
     end.state = StateAfter(end.state, step);
