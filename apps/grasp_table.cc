@@ -119,7 +119,8 @@ const NpzArray* FindActive(const std::vector<NpzArray>& arrays, const std::strin
     if (version->values[0] == 2) return active;
   }
   if (active != nullptr && old != nullptr) {
-    throw InputError(file + ": active: cannot be used with holds, its name in version 1");
+    throw InputError(
+        file + ": active: cannot be used with holds, its name in version 1; help: remove holds");
   }
   return active != nullptr ? active : old;
 }
@@ -139,7 +140,7 @@ GraspTable ReadGrasps(const std::string& file, int dimension) {
   const Shape& shape = points->shape;
   CheckShape(shape, file, dimension);
   if (normals != nullptr && normals->shape != shape) {
-    throw InputError(file + ": normals: expected the shape of points, " + ShapeText(shape) +
+    throw InputError(file + ": normals: expected shape " + ShapeText(shape) + ", as points" +
                      ", found " + ShapeText(normals->shape));
   }
   if (active != nullptr && active->shape != Shape{shape[0], shape[1]}) {

@@ -257,7 +257,8 @@ int RunGrasps(const ValidateOptions& options) {
   const bool passed = Count(verdicts.valid, 1) == table.count;
   std::error_code error;
   std::filesystem::create_directories(options.Folder(), error);
-  if (error) throw EnvironmentError(options.Folder().string() + ": " + error.message());
+  if (error)
+    throw EnvironmentError(options.Folder().string() + ": cannot be created: " + error.message());
   const std::filesystem::path file = options.Folder() / kVerdictsName;
   WriteFile(file, FormatVerdicts(std::move(verdicts), options));
   if (!options.quiet) {

@@ -513,8 +513,7 @@ void ValidateOptions::CheckConditions(const CLI::App& app) {
       const std::string text = require.substr(sign + 1);
       required_conditions = ParseDouble(text);
       if (!(required_conditions && *required_conditions > 0 && *required_conditions <= 1)) {
-        throw InputError("--require: expected a share above 0 and of at most 1, found \"" + text +
-                         "\"");
+        throw InputError("--require: share must be above 0 and at most 1, found \"" + text + "\"");
       }
     }
     if (word == kStandard && conditions.empty()) conditions = kStandard;

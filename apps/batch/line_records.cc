@@ -212,9 +212,9 @@ LinesInput::LinesInput(fs::path path, const Shard& shard) : path_(std::move(path
     const std::int64_t found = lines_ - 1;
     const EntryRange expected = header_->range();
     if (found != expected.count() || !ends_) {
-      throw InputError(path_.string() + ": line " + std::to_string(lines_) + ": truncated " +
-                       (ends_ ? "after" : "inside") + " this line, expected " +
-                       std::to_string(expected.count()) + " entries as in the header");
+      const std::string where = !ends_ ? ": truncated inside line " + std::to_string(lines_) : "";
+      throw InputError(path_.string() + where + ": expected " + std::to_string(expected.count()) +
+                       " entries as in the header, found " + std::to_string(found));
     }
     next_ = expected.first;
   }

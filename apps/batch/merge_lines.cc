@@ -73,7 +73,7 @@ void CheckComplete(const std::vector<ShardFile>& shards) {
   }
   if (missing == 0) return;
   throw InputError("--shards: " + std::to_string(missing) + " of " + std::to_string(count) +
-                   " not found: " + names + (missing > kMostNamed ? ", …" : ""));
+                   " shards not found: numbers " + names + (missing > kMostNamed ? ", …" : ""));
 }
 
 /// Reader of a shard, entry by entry.

@@ -16,7 +16,7 @@ namespace regrasp {
 /// Memory required by a data structure that a planner is about to build.
 struct MemoryNeed {
   std::string what;                      ///< "the graph of the planner polygon"
-  int count = 0;                         ///< number of input units
+  int count = 0;                         ///< size of the input in `units`
   std::string units;                     ///< "edges"
   std::function<double(int)> bytes_for;  ///< bytes required for a number of units, increasing
 

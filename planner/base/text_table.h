@@ -9,7 +9,7 @@ namespace regrasp {
 
 /// First character of a text, or its first invalid bytes.
 struct Utf8Character {
-  char32_t code = 0;       ///< 0 also if the bytes are invalid
+  char32_t code = 0;       ///< code point; 0 if the bytes are invalid
   std::string_view bytes;  ///< bytes of the character, at least one
   bool is_valid = false;   ///< whether the bytes are a UTF-8 character (Unicode 15, table 3-7)
 };

@@ -13,8 +13,9 @@ namespace regrasp::collision {
 /// Point of a surface near a sphere.
 struct NearPoint {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();  ///< unit vector to the sphere's centre
-  double distance = 0;                                 ///< distance to the sphere's centre
+  Eigen::Vector3d outward =
+      Eigen::Vector3d::UnitZ();  ///< unit vector from `point` to the sphere's centre
+  double distance = 0;           ///< distance to the sphere's centre
 };
 
 /// Contacts of spheres with the exact surface of a solid, which can be non-convex.
@@ -65,7 +66,7 @@ class BallContact {
 struct SurfaceContact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< point on the surface
   Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();
-  double gap = 0;  ///< metres; negative: penetration depth
+  double gap = 0;  ///< signed distance, metres; negative if the shape penetrates the surface
 };
 
 /// Convex shape with its points in a tree, for shapes of many points.

@@ -22,7 +22,7 @@ constexpr double kToldGap = 0.01;
 
 /// Criterion beyond force closure, with a minimum.
 struct Criterion {
-  const char* name;              ///< name in messages, after "a"
+  const char* name;              ///< noun in messages, without "a"
   double GraspCriteria::*asked;  ///< required minimum; 0: not required
   /// Test of the criterion.
   /// @param filter  can be null.

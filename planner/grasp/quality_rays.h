@@ -163,7 +163,7 @@ class QualityFilter {
   /// False if ε is smaller, and also for some grasps just above the threshold. Takes at most 0.2
   /// ms.
   /// @param grasp  contacts that are force closure at the friction angle.
-  /// @param threshold  threshold above 0.
+  /// @param threshold  required lower bound of ε, above 0.
   [[nodiscard]] bool IsClearlyAtLeast(std::span<const Contact> grasp, double threshold);
 
   /// Number of grasps that required ray shooting.

@@ -91,7 +91,7 @@ using Vector = VectorOf<Rational>;
 
 inline constexpr double kRootAbove = 1 + 5e-7;
 
-/// Return the exact values of doubles, which must be finite.
+/// Convert finite doubles to rationals without rounding.
 [[nodiscard]] Vector Exact(const Eigen::Vector3d& v);
 
 [[nodiscard]] bool IsZero(const Vector& a);

@@ -8,9 +8,7 @@ namespace regrasp::object {
 namespace {
 
 /// Return three times the centre of a triangle.
-Eigen::Vector3d SumOf(const Corners& triangle) {
-  return triangle[0] + triangle[1] + triangle[2];
-}
+Eigen::Vector3d SumOf(const Corners& triangle) { return triangle[0] + triangle[1] + triangle[2]; }
 
 }  // namespace
 
@@ -32,10 +30,9 @@ void TriangleTree::Build(int begin, int end) {
   Eigen::Index axis = 0;
   centres.sizes().maxCoeff(&axis);
   const int middle = begin + (end - begin) / 2;
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-                   triangles_.begin() + end, [axis](const Corners& a, const Corners& b) {
-                     return SumOf(a)[axis] < SumOf(b)[axis];
-                   });
+  std::nth_element(
+      triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
+      [axis](const Corners& a, const Corners& b) { return SumOf(a)[axis] < SumOf(b)[axis]; });
   Build(begin, middle);
   nodes_[index].right = static_cast<int>(nodes_.size());
   Build(middle, end);

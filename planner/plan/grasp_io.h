@@ -27,7 +27,7 @@ namespace regrasp::plan {
 /// Return a warning about contacts on surface that a repair filled; empty if there are none.
 /// It names the first such contact and the number of contacts (Object::IsFilled). Both ends of
 /// sliding steps count, the path between them does not.
-/// @param located  plan from ProjectPlan, with faces set.
+/// @param projected  plan from ProjectPlan, with faces set.
 [[nodiscard]] std::string FilledContactsWarning(const object::Object& object,
                                                 const Plan& projected);
 

@@ -88,9 +88,10 @@ struct StageResult {
 [[nodiscard]] StageResult ArrangeSurface(const object::PolygonSoup& soup);
 
 /// Wrap a surface from outside (alpha wrapping with an offset, Portaneri et al. 2022).
-/// A sphere of radius kWrapDetail · D rolls over the surface and cannot enter smaller openings. The
-/// vertices of the wrap are then projected onto the surface. The fact "volumes" lists the volume of
-/// a coarser and of the final wrap.
+/// A sphere of radius kWrapDetail · D rolls over the surface. It cannot enter openings narrower
+/// than its diameter. The vertices of the wrap are then projected onto the surface. The fact
+/// "volumes" lists the volume of a coarser and of the final wrap.
+/// @param soup  triangles, not necessarily closed.
 [[nodiscard]] StageResult WrapSurface(const object::PolygonSoup& soup);
 
 /// Give an open surface a wall of the given thickness, in object units.

@@ -52,8 +52,8 @@ class SearchSpace : public criteria::GraspMemory {
 };
 
 /// Motion of all contacts of a grasp along the surface, proved to keep force closure.
-/// Between two waypoints every contact moves straight on its face; or one contact keeps its point
-/// and changes to the next face, while the others do not move.
+/// Between two waypoints, either every contact moves straight on its face, or one contact changes
+/// to the adjacent face at a fixed point and the others do not move.
 struct FaceAlign {
   /// Contact of the first grasp and its contact in the second grasp, by number.
   std::vector<std::pair<int, int>> contacts;

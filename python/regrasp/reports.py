@@ -170,7 +170,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     if hand is not None and "hand" not in plan.data:
         raise InputError(f"hand cannot be used with {plan.name}, which is not a plan for a hand")
     if hand is not None and object.dimension != 3:
-        raise InputError(f"object must be a solid, found the polygon {object.name}")
+        raise InputError(f"with hand, object must be a solid, found the polygon {object.name}")
     if replay is None:
         replay = "points" if hand is None else "hand"
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"

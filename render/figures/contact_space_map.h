@@ -95,7 +95,7 @@ struct SpaceShape {
 struct MapSet {
   sets::SetIndex set;
   bool stretching = false;
-  std::optional<int> name;  ///< index of the name; only for sets of the plan
+  std::optional<int> name;  ///< index of its displayed name; nullopt for sets not in the plan
   std::vector<SpaceShape> pieces;
   std::vector<SpaceShape> border;  ///< segments of two points each
   /// Centres of the largest squares; only for sets with a name.

@@ -53,9 +53,9 @@ inline constexpr double kSlideSpeed = 1.5e-3;  ///< D per characteristic time
 void SlideFinger(ReplayWorld& world, FingerIndex finger, const grasp::Contact& from_B,
                  const grasp::Contact& to_B);
 
-/// Return the margin with which the others can balance the finger during its slide.
-/// It is the smaller margin of their forces (GraspForces::margin) at both ends; not positive if
-/// they cannot balance it.
+/// Return the force margin of the other fingers while a finger slides.
+/// It is the smaller one (GraspForces::margin) of those at both ends; not positive if they cannot
+/// balance the finger.
 [[nodiscard]] double SlideMargin(const ReplayWorld& world, FingerIndex finger,
                                  const grasp::Contact& from_B, const grasp::Contact& to_B);
 

@@ -426,7 +426,7 @@ class Lines(ProgramCase):
         for shard in ("1/2", "2/2", "2/3"):
             self.plan(shard.replace("/", "of"), "--shard", shard)
         self.write("cut", self.read("2of2")[:-1])
-        for words, shards in (("1 of 2 not found: 2", ["1of2"]),
+        for words, shards in (("1 of 2 shards not found: numbers 2", ["1of2"]),
                               ("2of2: line 1: shard 2 of 2 must be given once, found it in 2of2 too",
                                ["1of2", "2of2", "2of2"]),
                               ("2of3: line 1: expected a shard of 2, found shard 2 of 3; the first shard is 1of2", ["1of2", "2of3"]),

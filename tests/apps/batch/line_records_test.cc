@@ -195,9 +195,12 @@ TEST_F(LineInputTest, AHeaderSaysWhichEntriesFollow) {
 TEST_F(LineInputTest, AFileWithMoreOrFewerEntriesThanItsHeaderSaysIsRefused) {
   const std::string header = FormatHeader({"plans", 2, {}, "run"});
   EXPECT_EQ(Refusal(header + "a\nb\n"), "nothing was refused");
-  EXPECT_THAT(Refusal(header + "a\n"), HasSubstr("a.jsonl: line 2: truncated after this line"));
-  EXPECT_THAT(Refusal(header + "a\nb"), HasSubstr("line 3: truncated inside this line"));
-  EXPECT_THAT(Refusal(header + "a\nb\nc\n"), HasSubstr("line 4"));
+  EXPECT_THAT(Refusal(header + "a\n"),
+              HasSubstr("a.jsonl: expected 2 entries as in the header, found 1"));
+  EXPECT_THAT(Refusal(header + "a\nb"),
+              HasSubstr("a.jsonl: truncated inside line 3: expected 2 entries"));
+  EXPECT_THAT(Refusal(header + "a\nb\nc\n"),
+              HasSubstr("expected 2 entries as in the header, found 3"));
 }
 
 TEST_F(LineInputTest, WhatIsNoFileIsRefused) {

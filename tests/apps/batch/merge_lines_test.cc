@@ -70,9 +70,9 @@ TEST_F(MergeLinesTest, ShardsInAnyOrderGiveTheBytesOfOneRun) {
 TEST_F(MergeLinesTest, AShardThatIsMissingIsNamed) {
   std::vector<fs::path> files = WriteShards(4);
   files.erase(files.begin() + 3);
-  EXPECT_EQ(Refusal(files), "--shards: 1 of 4 not found: 4");
+  EXPECT_EQ(Refusal(files), "--shards: 1 of 4 shards not found: numbers 4");
   files.erase(files.begin());
-  EXPECT_EQ(Refusal(files), "--shards: 2 of 4 not found: 1, 4");
+  EXPECT_EQ(Refusal(files), "--shards: 2 of 4 shards not found: numbers 1, 4");
 }
 
 TEST_F(MergeLinesTest, ShardsThatOverlapAreNamed) {
