@@ -237,8 +237,7 @@ SolidShells Unite(TriangleMesh& mesh, SurfaceTopology& topology, const std::vect
   result.text = std::to_string(shells.size()) + " closed shells form one body of " +
                 std::to_string(all.solids) + (all.solids == 1 ? " solid" : " solids");
   if (left_out > 0) {
-    result.text += "; " + std::to_string(left_out) + " inside the material " +
-                   (left_out == 1 ? "is" : "are") + " left out";
+    result.text += "; " + std::to_string(left_out) + " inside the material, omitted";
   }
   return result;
 }

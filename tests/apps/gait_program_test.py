@@ -371,7 +371,7 @@ class Gait(ProgramCase):
                         self.assertNotIn("warning", done.stderr)
         done = self.run_program(*cube, "--plan", "plan.json", "--frames", "none", program="validate")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("moves joint finger2_joint3", done.stderr)
+        self.assertIn("actuator of joint finger2_joint3 not found", done.stderr)
 
     def test_a_joint_off_its_coupling_fails(self):
         """The model couples joints, but the plan has independent ones."""

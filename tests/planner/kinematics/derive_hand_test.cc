@@ -86,7 +86,7 @@ TEST_F(DeriveHandTest, ALinkBesideAFingerIsNoFinger) {
                   "<geom size=\"0.003\"/></body>"));
   ASSERT_EQ(derived.description.tips.size(), 4U);
   EXPECT_EQ(derived.description.tips[0].body, "sensor") << "the first of equal chains";
-  EXPECT_THAT(derived.notes, Contains(HasSubstr("body nail is not a fingertip here")));
+  EXPECT_THAT(derived.notes, Contains(HasSubstr("body nail is not used as a fingertip")));
 }
 
 TEST_F(DeriveHandTest, EqualitiesCoupleAndTheJointWithAnActuatorLeads) {

@@ -200,7 +200,7 @@ TEST_F(MisreadFilesTest, ColladaThatAssimpMisreads) {
                 }),
                 "scene: expected at least one polygon");
   ExpectRefused("units.dae", with([](C& c) { c.node = "<asset><unit meter=\"0.01\"/></asset>"; }),
-                "unit: several");
+                "unit: expected one, found");
   ExpectRefused("zero.dae", with([](C& c) { c.unit = "meter=\"0\""; }), "unit: meter");
 }
 

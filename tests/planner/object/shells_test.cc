@@ -88,7 +88,7 @@ TEST(Shells, TheUnionOfSolidsInEachOtherIsTheOuterOne) {
   EXPECT_NEAR(body.mass_properties().volume, 1, 1e-12);
   EXPECT_EQ(body.face_count(), 6);
   EXPECT_EQ(CountEnclosed(body), 0);
-  EXPECT_THAT(text, HasSubstr("1 lies in its material"));
+  EXPECT_THAT(text, HasSubstr("1 inside the material, omitted"));
   // The outer solid fills a cavity of the inner solid, but not a cavity around it.
   EXPECT_NEAR(Read(Join(Join(Box(0.2, 0.8), InwardBox(0.3, 0.7)), Box(0, 1)), Shells::kUnion)
                   .mass_properties()

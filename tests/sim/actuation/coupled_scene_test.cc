@@ -92,7 +92,7 @@ TEST_F(CoupledSceneTest, AJointWithoutAnActuatorIsNamed) {
     const HandWorld world(hand, Cube(), 0.05, {.mu = 0.8, .mass_kg = 0.1});
     ADD_FAILURE() << "taken";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("moves joint f3"));
+    EXPECT_THAT(error.what(), HasSubstr("actuator of joint f3 not found"));
   }
   EXPECT_THAT(hand.warnings,
               testing::ElementsAre("joints f3, g3, h3 have no actuator: plans are not simulated"));

@@ -136,10 +136,8 @@ TEST(PlanOnPolyhedron, SaysWhichGraspIsNotConcurrent) {
   const planning::PlanResult result =
       PlanWith(PolyhedronPlanner(), box, Given(grasp), Given(other), RequestAt(25));
   EXPECT_EQ(result.status, Status::kNoGrasp);
-  EXPECT_THAT(
-      result.message,
-      HasSubstr(
-          "given.json: force closure, but four contacts on this body are nowhere concurrent"));
+  EXPECT_THAT(result.message,
+              HasSubstr("given.json: force closure, but four contacts are nowhere concurrent"));
   EXPECT_EQ(PlanWith(PolyhedronPlanner(), box, Random(), Random(), RequestAt(25)).status,
             Status::kNoGrasp);
   EXPECT_FALSE(DescribeFocus(box, grasp, Radians(25)));
