@@ -413,8 +413,8 @@ class Lines(ProgramCase):
         self.write_lines("queries.jsonl", self.queries(3))
         self.plan("plans.jsonl")
         whole = self.read("plans.jsonl")
-        for cut, words in ((whole[:-1], "line 4: truncated inside this line"),
-                           (whole[:whole.rfind(b"\n", 0, -1) + 1], "line 3: truncated after this line"),
+        for cut, words in ((whole[:-1], "truncated inside line 4"),
+                           (whole[:whole.rfind(b"\n", 0, -1) + 1], "expected 3 entries as in the header, found 2"),
                            (whole[:50], "line 1")):
             self.write("cut.jsonl", cut)
             done = self.validate("cut.jsonl", "out", code=2)
