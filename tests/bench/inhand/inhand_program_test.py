@@ -36,7 +36,7 @@ class InHand(ProgramCase):
         for name in ("passed", "plan_sha256", "moves", "switches", "error_mm"):
             self.assertEqual(judged[name], row[name], name)
         self.assertIsNone(judged["seconds"])
-        self.assert_refused(2, ["no plan for turn/cube-50/x90", "degrees from its goal"],
+        self.assert_refused(2, ["not a plan for turn/cube-50/x90", "degrees from its goal"],
                             "--task", "turn/cube-50/x90", "--plan", self.plan(), self.hand())
         self.assert_refused(2, ["/hand/sha256", "ring5"], "--task", "turn/cube-50/z90", "--plan",
                             self.plan(), self.hand("ring5"))

@@ -75,7 +75,7 @@ TEST(Scoreboard, RefusesAPlanOfAnotherTask) {
   const Planned& given = ThePlan();
   const plan::Plan& plan = *given.planned.plan;
   const auto refusal = [&](const Task& task) { return Refusal(task, given.cube, plan); };
-  EXPECT_THAT(refusal(TurnOf("cube-50", 'x', 90)), HasSubstr("no plan for turn/cube-50/x90"));
+  EXPECT_THAT(refusal(TurnOf("cube-50", 'x', 90)), HasSubstr("not a plan for turn/cube-50/x90"));
   EXPECT_THAT(refusal(TurnOf("cube-50", 'z', 45)), HasSubstr("45 degrees from its goal"));
   // Both goals have the same orientation.
   EXPECT_THAT(refusal(TurnOf("cube-50", 'z', 450)), HasSubstr("turns by 90 degrees, not by 450"));

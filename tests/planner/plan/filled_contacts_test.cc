@@ -41,7 +41,7 @@ TEST(FilledContacts, FingersOnTheOriginalSurfaceAreNoneToWarnOf) {
 TEST(FilledContacts, TheFirstIsNamedAndAllAreCounted) {
   Plan plan;
   plan.initial = {kLeft, kRight};
-  EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact is on surface that the repair filled in "
+  EXPECT_THAT(WarningOf(plan), HasSubstr("1 contact is on filled surface "
                                          "(finger 1 in the initial grasp)"));
   plan.initial = {kLeft, kTop};
   plan.steps = {Switch{{kRight}, {}}, Align{{{kLeft, kTop, kRight}, {kLeft, kTop, kRight}}}};
