@@ -354,7 +354,7 @@ var RegraspScene = (function () {
     }
   };
 
-  // Chooses the camera: the object and its fingers fill the picture.
+  // Chooses the camera: the object and its fingers fill the canvas.
   Scene.prototype.frame = function () {
     var replay = this.replay, centre = vectorOf(this.data.centroid), target = new THREE.Vector3();
     var holder = new THREE.Object3D(), points = [], row, i;

@@ -16,8 +16,8 @@ namespace regrasp::render {
 // Data of the interactive 3-D replay. Lengths in metres, forces in newtons, angles in radians, all
 // in the world frame, in which z is up.
 
-/// A revolute joint of a hand: after its parent, at `offset` in the parent's frame, it rotates about
-/// `axis` by its angle minus `rest`.
+/// A revolute joint of a hand: after its parent, at `offset` in the parent's frame, it rotates
+/// about `axis` by its angle minus `rest`.
 struct ViewerJoint {
   int parent = -1;  ///< index of the joint before it; -1: the palm
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ enum class ViewerContactState { kHidden, kFree, kHolding };
 /// A finger at one instant.
 struct ViewerContact {
   ViewerContactState state = ViewerContactState::kHidden;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< its contact, or its front in the air
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< its contact, or its front in the air
   Eigen::Vector3d inward = Eigen::Vector3d::Zero();  ///< inward unit normal at the contact
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< force on the object
 };
@@ -62,9 +62,9 @@ struct ViewerStep {
   int number = 0;  ///< 0: the initial grasp
   double start_s = 0;
   double end_s = 0;
-  std::string title;    ///< "Switch: place 4, release 0"
-  std::string verdict;  ///< "pass", "fail" or "skipped"
-  std::string reason = {};  ///< name of the reason and details of a failure
+  std::string title;                            ///< "Switch: place 4, release 0"
+  std::string verdict;                          ///< "pass", "fail" or "skipped"
+  std::string reason = {};                      ///< name of the reason and details of a failure
   std::optional<double> margin = std::nullopt;  ///< friction margin of all grasps of the step
 };
 
@@ -77,7 +77,7 @@ struct ViewerMark {
 
 /// The fault at the last sample.
 struct ViewerFailure {
-  std::string heading;  ///< reason, one line
+  std::string heading;            ///< reason, one line
   std::vector<int> fingers = {};  ///< indices of ViewerScene::fingers
   std::vector<ViewerMark> marks = {};
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;  ///< former pose of the object
@@ -87,14 +87,14 @@ struct ViewerFailure {
 /// A replay as the viewer shows it.
 struct ViewerScene {
   std::string object_name;
-  ShadedMesh object;  ///< its surface in the object's frame
+  ShadedMesh object;                                       ///< its surface in the object's frame
   std::vector<std::array<Eigen::Vector3d, 2>> edges = {};  ///< its creases, in the same frame
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   double diameter_m = 1;
   bool planar = false;
   double friction_angle = 0;
   bool hard_fingers = true;  ///< whether fingers have no torsional friction
-  std::optional<double> finger_radius_m = std::nullopt;  ///< true radius; without one, a symbol
+  std::optional<double> finger_radius_m = std::nullopt;    ///< true radius; without one, a symbol
   Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  ///< pose of the palm
   std::vector<ViewerJoint> joints = {};
   std::vector<ViewerLink> links = {};  ///< empty without a hand

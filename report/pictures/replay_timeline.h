@@ -18,7 +18,8 @@ struct HandSample {
   std::vector<plan::FingerState> fingers = {};  ///< fingers that press on the object
 };
 
-/// A replay over time: states in the world frame, and the time at which each entry ends. Each entry starts at the end of the entry before it, the first at 0.
+/// A replay over time: states in the world frame, and the time at which each entry ends. Each entry
+/// starts at the end of the entry before it, the first at 0.
 struct ReplayTimeline {
   std::vector<render::ViewerSample> samples;
   std::vector<double> ends;

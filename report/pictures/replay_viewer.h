@@ -15,7 +15,8 @@ namespace regrasp::report {
 /// It has all entries up to the failed one, and ends at the failing instant with the marks of its
 /// frame.
 /// @param options  options of the frames; hand, body and view direction are used.
-/// @param samples  recorded states of a replay by a hand, ascending in entry and time; may be empty.
+/// @param samples  recorded states of a replay by a hand, ascending in entry and time; may be
+/// empty.
 [[nodiscard]] render::ViewerScene MakeViewerScene(const object::Object& object,
                                                   const plan::Plan& plan,
                                                   const DrawingOptions& options,

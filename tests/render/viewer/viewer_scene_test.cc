@@ -68,8 +68,8 @@ double ValueOf(const Json& table, int rows, int column, int row) {
   const double high = table["high"][column].get<double>();
   if (low == high) return low;
   const auto at = 2 * static_cast<std::size_t>(start + row);
-  const int code = static_cast<unsigned char>(bytes.at(at)) +
-                   256 * static_cast<unsigned char>(bytes.at(at + 1));
+  const int code =
+      static_cast<unsigned char>(bytes.at(at)) + 256 * static_cast<unsigned char>(bytes.at(at + 1));
   return low + (high - low) * code / 65535;
 }
 
@@ -88,8 +88,8 @@ TEST(ViewerSceneTest, SamplesAreThoseOfTheScene) {
   EXPECT_NEAR(value(6, 1), std::sqrt(0.5), 1e-5);  // quaternion x, y, z, w
   EXPECT_NEAR(value(7, 0), 1, 1e-5);
   EXPECT_NEAR(value(7, 1), std::sqrt(0.5), 1e-5);
-  EXPECT_EQ(value(8, 0), 1);   // free
-  EXPECT_EQ(value(8, 1), 2);   // holding
+  EXPECT_EQ(value(8, 0), 1);  // free
+  EXPECT_EQ(value(8, 1), 2);  // holding
   EXPECT_NEAR(value(11, 0), 0.5, 1e-5);
   EXPECT_NEAR(value(11, 1), 0.25, 1e-5);
   EXPECT_EQ(value(14, 1), -1);  // normal

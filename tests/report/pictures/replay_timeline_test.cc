@@ -45,8 +45,8 @@ struct Scene {
   /// Return the last sample of an entry.
   [[nodiscard]] const render::ViewerSample& EndOf(int entry) const {
     const double end = timeline.ends[entry];
-    return *std::ranges::find_if(
-        timeline.samples, [end](const auto& sample) { return sample.time_s >= end - 1e-9; });
+    return *std::ranges::find_if(timeline.samples,
+                                 [end](const auto& sample) { return sample.time_s >= end - 1e-9; });
   }
 };
 
@@ -91,7 +91,8 @@ TEST(ReplayTimelineTest, FingersApproachAndLeaveAlongTheNormal) {
         ++approaching;
       }
     }
-    if (sample.contacts[0].state == ViewerContactState::kFree && sample.time_s > scene.timeline.ends[0]) {
+    if (sample.contacts[0].state == ViewerContactState::kFree &&
+        sample.time_s > scene.timeline.ends[0]) {
       EXPECT_NEAR(sample.contacts[0].point.y(), 0, 1e-12);
       EXPECT_EQ(sample.contacts[0].force, Vector3d::Zero());
       ++leaving;
