@@ -288,6 +288,7 @@ Json FailureJson(const ViewerScene& scene) {
   }
   return {{"heading", Visible(failure.heading)},
           {"fingers", failure.fingers},
+          {"links", failure.links},
           {"marks", marks},
           {"before", failure.X_WO_before ? PoseJson(*failure.X_WO_before) : Json(nullptr)},
           {"beforeText", Visible(failure.ghost_text)}};

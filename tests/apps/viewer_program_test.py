@@ -180,6 +180,9 @@ class Viewer(ProgramCase):
             self.assertEqual(self.browser.console, [])
             self.assertTrue(self.browser.value(RUNNING))
             self.assertIn("not the time of the simulation", self.browser.value(line))
+        failure = "document.getElementById('viewer').viewer.data.failure"
+        self.assertGreater(self.browser.value(failure + ".links.length"), 0)
+        self.assertIn("apart", self.browser.value("document.querySelector('.tag.mark').textContent"))
 
     def test_it_fits_a_phone(self):
         self.validate_cube()
