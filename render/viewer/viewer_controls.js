@@ -78,6 +78,7 @@
     this.time = 0;
     this.speed = 1;
     this.playing = false;
+    this.runs = 0;  // number of times that the replay was started
     this.options = {};
     this.steps = data.steps;
     this.build();
@@ -276,9 +277,9 @@
     if (this.time >= this.end - 1e-6) this.time = 0;
     this.playing = true;
     setIcon(this.playButton, ICONS.pause);
-    var viewer = this, last = null;
+    var viewer = this, last = null, run = ++this.runs;
     requestAnimationFrame(function advance(now) {
-      if (!viewer.playing) return;
+      if (!viewer.playing || run !== viewer.runs) return;
       var seconds = last === null ? 0 : Math.min(0.1, (now - last) / 1000);
       last = now;
       viewer.setTime(viewer.time + viewer.speed * seconds);
