@@ -12,7 +12,6 @@
 
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
-#include "apps/hand_recorder.h"
 #include "apps/locked_output_folder.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
@@ -29,6 +28,7 @@
 #include "report/failure.h"
 #include "report/markup.h"
 #include "report/page/report_page.h"
+#include "report/pictures/hand_recorder.h"
 #include "report/pictures/replay_viewer.h"
 #include "report/report.h"
 #include "sim/actuation/hand_scene_export.h"
@@ -53,7 +53,7 @@ struct ReplayRecord {
   std::vector<plan::Snapshot> trajectory;  ///< trajectory of a replay by ideal fingers
   std::vector<plan::Snapshot> animation;   ///< animation samples of a replay by ideal fingers
   sim::HandTrajectory hand_trajectory;     ///< trajectory of a replay by a hand
-  HandRecorder viewer;                     ///< states of a replay by a hand for the 3-D replay
+  report::HandRecorder viewer;             ///< states of a replay by a hand for the 3-D replay
   std::vector<sim::SceneKey> rests;        ///< keyframes of a replay by a hand
 };
 

@@ -19,6 +19,9 @@
 #include "python/binding.h"
 #include "render/picture/image.h"
 #include "report/failure.h"
+#include "report/page/report_page.h"
+#include "report/pictures/hand_recorder.h"
+#include "report/pictures/replay_viewer.h"
 #include "report/pictures/report_pictures.h"
 #include "report/report.h"
 #include "report/report_json.h"
@@ -35,6 +38,7 @@ struct PythonReport {
   report::Report report;
   plan::Plan plan;
   std::shared_ptr<const kinematics::HandFile> hand;  ///< null: no hand was checked
+  std::vector<report::HandSample> samples;           ///< states of a replay by the hand
 };
 
 constexpr std::array kEngines = {sim::EngineChoice::kMujoco, sim::EngineChoice::kOde,
@@ -48,9 +52,12 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   std::shared_ptr<const kinematics::HandFile> kept;
   if (hand != nullptr) kept = std::make_shared<const kinematics::HandFile>(hand->file);
   validation::ValidationObserver observer;
+  report::HandRecorder recorder;
+  observer.replay.on_time_step = [&](const sim::HandWorld& world) { recorder.Add(world); };
   const auto progress = interrupt.progress();
   observer.replay.on_progress = [&](int done, int total) {
     progress("replay: " + std::to_string(done) + " of " + std::to_string(total) + " steps");
+    recorder.EndEntry();
     if (interrupt.raised()) throw TimeUp();
   };
   report::Report report =
@@ -62,7 +69,7 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;
   report.plan_sha256 = Sha256(text);
-  return {std::move(report), std::move(plan), std::move(kept)};
+  return {std::move(report), std::move(plan), std::move(kept), recorder.samples()};
 }
 
 PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
@@ -93,6 +100,25 @@ py::array_t<std::uint8_t> ArrayOf(const render::Image& image) {
   return py::array_t<std::uint8_t>({image.height, image.width, 3}, image.rgb.data());
 }
 
+/// Return the hand of a report in images; nullopt without a hand.
+std::optional<report::HandPicture> HandOf(const PythonReport& of, const PythonObject& object) {
+  if (!of.hand) return std::nullopt;
+  return std::optional<report::HandPicture>(
+      std::in_place, *of.hand, of.plan,
+      of.plan.scale * object.file.object->mass_properties().centroid);
+}
+
+/// Return the HTML report with the interactive replay, or a page with the replay only.
+std::string FormatPage(const PythonReport& of, const PythonObject& object, bool only_replay) {
+  const py::gil_scoped_release unlocked;
+  const std::optional<report::HandPicture> hand = HandOf(of, object);
+  const std::string viewer = render::FormatViewerScene(report::MakeViewerScene(
+      *object.file.object, of.plan, {.frame = {}, .hand = hand ? &*hand : nullptr}, of.samples,
+      of.report));
+  return only_replay ? report::FormatViewerHtml(of.report, of.plan, viewer)
+                     : report::FormatReportHtml(of.report, of.plan, {}, {}, viewer);
+}
+
 /// Return the frames and the overview image.
 py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, int height) {
   report::DrawingOptions options;
@@ -103,12 +129,8 @@ py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, in
   render::Image sheet;
   {
     const py::gil_scoped_release unlocked;
-    std::optional<report::HandPicture> hand;
-    if (of.hand) {
-      hand.emplace(*of.hand, of.plan,
-                   of.plan.scale * object.file.object->mass_properties().centroid);
-      options.hand = &*hand;
-    }
+    const std::optional<report::HandPicture> hand = HandOf(of, object);
+    if (hand) options.hand = &*hand;
     sheet =
         report::DrawFrames(*object.file.object, of.plan, options, of.report,
                            [&](const report::DrawnFrame& frame) { frames.push_back(frame.image); });
@@ -192,7 +214,8 @@ void BindReports(py::module_& module) {
       .def_property_readonly(
           "table", [](const PythonReport& of) { return report::FormatReportTable(of.report); })
       .def_property_readonly("failure", FailureOf)
-      .def("draw", Draw);
+      .def("draw", Draw)
+      .def("format_page", FormatPage);
   py::list engines;
   for (const sim::EngineChoice engine : kEngines) engines.append(report::EngineName(engine));
   module.attr("engines") = engines;

@@ -25,6 +25,7 @@ set(regrasp_slow_tests
   apps.trials
   apps.pages
   apps.validate
+  apps.viewer
   fuzz.assimp
   fuzz.grasp
   fuzz.lines

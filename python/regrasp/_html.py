@@ -19,6 +19,12 @@ def drawing(svg: str, title: str) -> str:
             'style="max-width:100%;background:white">')
 
 
+def frame(page: str, title: str) -> str:
+    """Return a page as an HTML element that is separate from the notebook, scripts and styles included."""
+    return (f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(title)}" width="100%" height="830" '
+            'style="border:0" allowfullscreen></iframe>')
+
+
 def text(lines: str) -> str:
     """Return preformatted text."""
     return f'<pre style="white-space:pre-wrap">{html.escape(lines)}</pre>'

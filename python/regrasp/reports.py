@@ -17,7 +17,7 @@ from .plans import Plan
 class Report:
     """The result of `validate`; `data` is report.json as a dict (docs/report.schema.json).
 
-    A notebook displays the overview image and the table. `text` is the content of report.json, `table`
+    A notebook displays the interactive replay and the table. `text` is the content of report.json, `table`
     a text with one line per step and the verdict. `failure` is one line with the failure, its cause and
     a remedy, or None if the plan passes.
     """
@@ -68,6 +68,14 @@ class Report:
         """
         return self._draw(size)[1]
 
+    def page(self) -> str:
+        """Return the HTML report with the interactive 3-D replay and without frames.
+
+        Returns:
+            A page that needs no other file and no network, about 1 MB.
+        """
+        return self._core.format_page(self._object._core, False)
+
     def _draw(self, size):
         try:
             width, height = size
@@ -85,7 +93,7 @@ class Report:
         return _regrasp.encode_png(self.overview())
 
     def _repr_html_(self) -> str:
-        return _html.picture(self._repr_png_(), repr(self)) + _html.text(self.table)
+        return _html.frame(self._core.format_page(self._object._core, True), repr(self)) + _html.text(self.table)
 
     def __str__(self) -> str:
         return self.table
@@ -144,6 +152,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     True
     >>> [frame.shape for frame in report.frames((320, 240))]
     [(240, 320, 3), (240, 320, 3), (240, 320, 3)]
+    >>> report.page().startswith("<!DOCTYPE html>")
+    True
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
     >>> both = validate(cube, found, engine="both")

@@ -6,6 +6,7 @@ var RegraspScene = (function () {
   var LARGEST_CODE = 65535;
   var HIDDEN = 0, HOLDING = 2;  // states of a finger; 1 is free
   var NUMBERS_PER_FINGER = 10;
+  var HAND_COLOR = 0xd8cfc2, FAULT_RED = 0xd61020;
   var FIRST_JOINT = 8;          // columns before: time, position and quaternion of the object
 
   function bytesOf(base64) {
@@ -227,6 +228,7 @@ var RegraspScene = (function () {
   Scene.prototype.addHand = function () {
     var hand = this.data.hand;
     this.joints = [];
+    this.links = [];
     this.tips = {};
     this.palm = new THREE.Group();
     this.root.add(this.palm);
@@ -243,12 +245,11 @@ var RegraspScene = (function () {
     });
     hand.links.forEach(function (link) {
       var own = link.tip && link.finger >= 0;
-      // Links share surfaces at joints: the outer one is in front.
-      var material = new THREE.MeshPhongMaterial({color: 0xd8cfc2, specular: 0x181818, shininess: 12,
-                                                  side: THREE.DoubleSide, polygonOffset: true,
-                                                  polygonOffsetFactor: 0, polygonOffsetUnits: -4 * link.joint});
+      var material = new THREE.MeshPhongMaterial({color: HAND_COLOR, specular: 0x181818, shininess: 12,
+                                                  side: THREE.DoubleSide});
       var mesh = new THREE.Mesh(geometryOf(link.mesh), material);
       (link.joint < 0 ? scene.palm : scene.joints[link.joint]).add(mesh);
+      scene.links.push(mesh);
       if (own) {
         scene.tips[link.finger] = scene.tips[link.finger] || [];
         scene.tips[link.finger].push(mesh);
@@ -330,7 +331,7 @@ var RegraspScene = (function () {
     if (!failure) return;
     var scene = this;
     failure.marks.forEach(function (mark) {
-      var color = mark.expected ? 0x007a3d : 0xd61020;
+      var color = mark.expected ? 0x007a3d : FAULT_RED;
       var from = vectorOf(mark.from), vector = vectorOf(mark.to).sub(from);
       if (vector.length() > 0) {
         var line = arrow(color, 0.007 * scene.size);
@@ -354,7 +355,7 @@ var RegraspScene = (function () {
     }
   };
 
-  // Chooses the camera: the object and its fingers fill the picture.
+  // Chooses the camera: the object and its fingers fill the canvas.
   Scene.prototype.frame = function () {
     var replay = this.replay, centre = vectorOf(this.data.centroid), target = new THREE.Vector3();
     var holder = new THREE.Object3D(), points = [], row, i;
@@ -404,6 +405,10 @@ var RegraspScene = (function () {
     this.paths.visible = options.path;
     this.axes.visible = options.axes;
     if (this.palmAxes) this.palmAxes.visible = options.palm;
+    this.links.forEach(function (mesh, i) {
+      mesh.material.color.set(HAND_COLOR);
+      if (failed && data.failure.links.indexOf(i) >= 0) mesh.material.color.lerp(new THREE.Color(FAULT_RED), 0.75);
+    });
     return this.fingers.map(function (finger, index) {
       var now = replay.finger(index);
       var wrong = failed && data.failure.fingers.indexOf(index) >= 0;
@@ -417,7 +422,7 @@ var RegraspScene = (function () {
 
   Scene.prototype.showFinger = function (finger, now, wrong, options) {
     var holds = now.state === HOLDING, hand = this.data.hand;
-    var red = new THREE.Color(0xd61020);
+    var red = new THREE.Color(FAULT_RED);
     finger.group.visible = now.state !== HIDDEN;
     finger.group.position.copy(now.point);
     if (now.state !== HIDDEN) finger.group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), now.inward);
@@ -431,7 +436,6 @@ var RegraspScene = (function () {
     finger.label.visible = now.state !== HIDDEN;
     finger.label.position.copy(now.point).addScaledVector(now.inward, -6.5 * finger.radius);
     (this.tips[finger.number] || []).forEach(function (mesh) {
-      mesh.material.color.set(0xd8cfc2);
       if (holds || wrong) mesh.material.color.lerp(wrong ? red : finger.color, wrong ? 0.75 : 0.5);
       finger.label.position.copy(mesh.geometry.boundingSphere.center).applyMatrix4(mesh.matrixWorld);
       finger.label.visible = !!hand;

@@ -1,6 +1,6 @@
 // The controls of the 3-D replay: buttons, time line, keys, links and labels.
 // Opens the viewer of the page, in the element "viewer" with the data of "viewer-data". Without
-// WebGL the element stays hidden, and the page shows its pictures.
+// WebGL the element stays hidden, and the page shows an image.
 (function () {
   'use strict';
 
@@ -36,7 +36,7 @@
     return element;
   }
 
-  // Sets the picture of a button: a path in a square of side 24.
+  // Sets the icon of a button: a path in a square of side 24.
   function setIcon(element, path) {
     var space = 'http://www.w3.org/2000/svg';
     var svg = document.createElementNS(space, 'svg'), shape = document.createElementNS(space, 'path');
@@ -78,6 +78,7 @@
     this.time = 0;
     this.speed = 1;
     this.playing = false;
+    this.runs = 0;  // number of times that the replay was started
     this.options = {};
     this.steps = data.steps;
     this.build();
@@ -276,9 +277,9 @@
     if (this.time >= this.end - 1e-6) this.time = 0;
     this.playing = true;
     setIcon(this.playButton, ICONS.pause);
-    var viewer = this, last = null;
+    var viewer = this, last = null, run = ++this.runs;
     requestAnimationFrame(function advance(now) {
-      if (!viewer.playing) return;
+      if (!viewer.playing || run !== viewer.runs) return;
       var seconds = last === null ? 0 : Math.min(0.1, (now - last) / 1000);
       last = now;
       viewer.setTime(viewer.time + viewer.speed * seconds);
@@ -381,7 +382,7 @@
 
   // ---- Start.
 
-  // The picture that is shown without a viewer joins the other frames.
+  // The image that replaces a viewer joins the other frames.
   function moveStillPicture() {
     var still = document.querySelector('.still figure, .failure figure'), frames = document.querySelector('.frames');
     if (!still || !frames) return;

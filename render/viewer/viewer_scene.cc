@@ -288,6 +288,7 @@ Json FailureJson(const ViewerScene& scene) {
   }
   return {{"heading", Visible(failure.heading)},
           {"fingers", failure.fingers},
+          {"links", failure.links},
           {"marks", marks},
           {"before", failure.X_WO_before ? PoseJson(*failure.X_WO_before) : Json(nullptr)},
           {"beforeText", Visible(failure.ghost_text)}};
@@ -374,9 +375,9 @@ ShadedMesh SimplifyForViewer(const ShadedMesh& mesh, int most) {
   for (const auto& corners : mesh.triangles) {
     for (const Vector3d& p : corners) box.extend(p);
   }
-  constexpr int kFinest = 512;
+  // A surface that fills its box has a few times cells² triangles.
   ShadedMesh merged;
-  for (double cells = kFinest; cells >= 4; cells *= 0.8) {
+  for (double cells = 2 * std::sqrt(most); cells >= 2; cells *= 0.8) {
     merged = MergeCells(mesh, box.min(), box.sizes().maxCoeff() / cells);
     if (static_cast<int>(merged.triangles.size()) <= most) break;
   }

@@ -79,6 +79,7 @@ struct ViewerMark {
 struct ViewerFailure {
   std::string heading;            ///< reason, one line
   std::vector<int> fingers = {};  ///< indices of ViewerScene::fingers
+  std::vector<int> links = {};    ///< indices of ViewerScene::links
   std::vector<ViewerMark> marks = {};
   std::optional<Eigen::Isometry3d> X_WO_before = std::nullopt;  ///< former pose of the object
   std::string ghost_text = {};

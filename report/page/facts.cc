@@ -28,7 +28,7 @@ constexpr char kLong[] = "digest";
 void AddGrasp(const Report& report, FactList& facts) {
   const GraspReport& grasp = *report.grasp;
   const std::optional<grasp::RequiredFrictionAngle>& required = report.steps.front().check.required;
-  facts.Add("Needs",
+  facts.Add("Required friction",
             required ? FormatRequiredDegrees(Degrees(required->upper)) + "°" : "none is enough");
   if (grasp.fingers.empty()) return;
   facts.Add("Quality ε", grasp::QualityText(grasp.quality, kQualityDigits));
@@ -85,15 +85,18 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
                              FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " margin");
   }
   if (report.trials) AddTrials(*report.trials, facts);
-  if (report.settings) AddSettings(*report.settings, facts);
+  FactList settings;
+  if (report.settings) AddSettings(*report.settings, settings);
   if (report.run && !report.run->program.empty()) {
-    facts.Add("Program", report.run->program);
-    if (!report.run->date.empty()) facts.Add("Validated on", report.run->date + " (UTC)");
-    facts.Add("Command, but for where results go", report.run->command, kLong);
+    settings.Add("Program", report.run->program);
+    if (!report.run->date.empty()) settings.Add("Validated on", report.run->date + " (UTC)");
+    settings.Add("Command without output options", report.run->command, kLong);
   }
-  facts.Add("Object, SHA-256", report.object_sha256, kLong);
-  facts.Add(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256, kLong);
-  return facts.Make();
+  settings.Add("Object, SHA-256", report.object_sha256, kLong);
+  settings.Add(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256, kLong);
+  const Element folded("details", {}, Element("summary", {}, "Settings and digests"),
+                       settings.Make());
+  return Element("section", {}, std::vector<Element>{facts.Make(), folded});
 }
 
 namespace {
@@ -167,17 +170,16 @@ std::vector<Element> WhatItTakes(const Report& report) {
   const bool both = std::ranges::any_of(
       steps, [](const ReportStep* step) { return step->replay->adapted && step->replay->fixed; });
   std::vector<Element> head =
-      HeadCells({"Step", "Weakest finger", "Needs alone", "Least margin in static grasp",
-                 "Least margin under disturbances"});
+      HeadCells({"Step", "Weakest finger", "Required alone", "Least force margin, static grasp",
+                 "Least force margin, disturbances"});
   std::vector<Element> rows;
   if (both) head.push_back(HeadCell("Fixed grasp force"));
   for (const ReportStep* step : steps) rows.push_back(RequirementsRow(*step, both));
   return {
-      Element("h2", {}, "What it takes"), ScrolledTable(head, rows),
-      Note("Weakest finger: the one whose own friction may fall least while all others keep "
-           "theirs; it needs this friction angle alone, none if the grasp does not need it. Least "
-           "margin: the friction angle less the largest angle between a finger’s force and "
-           "its normal, as the replay measured it.")};
+      Element("h2", {}, "Required friction and force margins"), ScrolledTable(head, rows),
+      Note("Weakest finger: the finger whose friction angle can decrease least while all others "
+           "keep theirs, to the angle that is required alone. Force margin: the friction angle "
+           "minus the largest angle between a finger’s force and its normal in the replay.")};
 }
 
 std::optional<double> Least(const ReportStep& step, double sim::ResistedWrench::*route) {

@@ -31,18 +31,21 @@ class Page {
         measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
-      if (!step.skipped && HasPicture(step.check.index)) still_ = step.check.index;
     }
-    if (!failed_ && viewer.empty()) still_.reset();
+    // Without a failure the first image replaces the viewer.
+    const plan::EntryIndex first{0};
+    if (failed_ && HasPicture(*failed_)) still_ = failed_;
+    if (!failed_ && !viewer.empty() && HasPicture(first)) still_ = first;
   }
 
   [[nodiscard]] std::string Format() const {
     Parts all;
     for (const Parts& parts :
-         {Parts{Header()}, Viewer(), StillFrame(), Parts{MakeFacts(report_, measures_)}, Plots(),
-          MakeStepTable(report_, plan_, measures_, Anchors()), MakeFingerTable(report_),
-          MakeGoalSection(report_), MakeFindings(report_), MakeEngineSection(report_),
-          MakeConditionSection(report_), Replay(), Frames()}) {
+         {Parts{Header()}, Viewer(), StillFrame(),
+          MakeStepTable(report_, plan_, measures_, Anchors()), Plots(),
+          Parts{MakeFacts(report_, measures_)}, MakeFingerTable(report_), MakeGoalSection(report_),
+          MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
+          Replay(), Frames()}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     return FormatPage(all);
@@ -171,7 +174,7 @@ class Page {
                    {"finger slipped", Values(&StepMeasures::slip_m), PlotMark::kRing}};
     plot.limit = PlotLimit{Tolerance(), "tolerance " + LengthText(Tolerance()), true};
     plot.failed = failed_;
-    return Figure({}, DrawStepPlot(plot), "How far things moved.",
+    return Figure({}, DrawStepPlot(plot), "Motion of the object.",
                   "Largest motion of the object in each step, |Δx| + R|Δφ| with R half the "
                   "diameter, and largest slip of a holding fingertip. Logarithmic.");
   }
@@ -187,9 +190,9 @@ class Page {
     }
     plot.limit = PlotLimit{0, "", false};
     plot.failed = failed_;
-    return Figure({}, DrawStepPlot(plot), "What friction is left.",
-                  "Discs: the friction angle less the smallest one at which every grasp of the "
-                  "step is force closure. Rings: the friction angle less the largest angle "
+    return Figure({}, DrawStepPlot(plot), "Friction margin.",
+                  "Discs: the friction angle minus the smallest one at which every grasp of the "
+                  "step is force closure. Rings: the friction angle minus the largest angle "
                   "between a finger's force and its normal, in the static grasp after the step in "
                   "the replay.");
   }
@@ -275,7 +278,7 @@ class Page {
     std::string text = failed ? std::string(plan::ReasonName(step.reason())) + ": " + step.detail()
                               : VerdictText(step);
     if (!failed && measures_[index].margin_deg) {
-      text += ", " + FormatDegrees(*measures_[index].margin_deg) + " of friction left";
+      text += ", friction margin " + FormatDegrees(*measures_[index].margin_deg);
     }
     if (picture.own_view) text += "; seen from another side, as one view hides a finger";
     return Figure({{"id", Anchor(index)}, {"class", std::string(VerdictName(step.verdict()))}},

@@ -131,6 +131,18 @@ namespace {
 
 constexpr char kNoStepValue[] = "–";
 
+/// Motions below these lengths and angles are errors of the simulation.
+constexpr double kLeastMotion_m = 1e-6;
+constexpr double kLeastRotation_deg = 1e-3;
+
+std::string MotionText(double metres) {
+  return metres < kLeastMotion_m ? "< 1\u00a0µm" : LengthText(metres);
+}
+
+std::string RotationText(double degrees) {
+  return degrees < kLeastRotation_deg ? "< 0.001°" : NumberText(degrees) + "°";
+}
+
 std::string DegreesOr(const std::optional<double>& radians, const char* otherwise) {
   return radians ? FormatDegrees(Degrees(*radians)) : otherwise;
 }
@@ -157,13 +169,13 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
   const sim::StepReplay* replay = step.replay && !step.skipped ? &*step.replay : nullptr;
   return Element(
       "tr", {{"class", std::string(VerdictName(step.verdict()))}},
-      NumberCell(std::to_string(step.check.index)), TitleCell(title, anchor),
+      NumberCell(std::to_string(step.check.index)),
+      Element("td", {{"class", "outcome"}}, VerdictText(step)), TitleCell(title, anchor),
       MinorCell(Required(step.check)),
       NumberCell(measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNoStepValue),
-      NumberCell(replay ? LengthText(replay->displacement_m) : kNoStepValue),
-      MinorCell(replay ? NumberText(replay->rotation_deg) + "°" : kNoStepValue),
-      NumberCell(replay ? LengthText(replay->slip_m) : kNoStepValue),
-      Element("td", {}, VerdictText(step)));
+      NumberCell(replay ? MotionText(replay->displacement_m) : kNoStepValue),
+      MinorCell(replay ? RotationText(replay->rotation_deg) : kNoStepValue),
+      NumberCell(replay ? MotionText(replay->slip_m) : kNoStepValue));
 }
 
 }  // namespace
@@ -171,10 +183,14 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
 std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                    const std::vector<StepMeasures>& measures,
                                    const std::vector<std::string>& anchors) {
-  const std::vector<Element> head = {
-      HeadCell("Step"),   HeadCell("What happens", ""), HeadCell("Needs", "number minor"),
-      HeadCell("Margin"), HeadCell("Displacement"),     HeadCell("Rotation", "number minor"),
-      HeadCell("Slip"),   HeadCell("Verdict", "")};
+  const std::vector<Element> head = {HeadCell("Step"),
+                                     HeadCell("Verdict", ""),
+                                     HeadCell("Description", ""),
+                                     HeadCell("Required friction", "number minor"),
+                                     HeadCell("Friction margin"),
+                                     HeadCell("Displacement"),
+                                     HeadCell("Rotation", "number minor"),
+                                     HeadCell("Slip")};
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {
     const plan::EntryIndex index = step.check.index;
@@ -182,10 +198,10 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
   }
   return {
       ScrolledTable(head, rows),
-      Note("Needs: the smallest friction angle at which every grasp of the step is "
-           "force closure. Margin: what is left of the plan’s friction. Displacement, "
-           "rotation and slip: the largest in the replay of the step and the disturbances after "
-           "it.")};
+      Note("Required friction: the smallest friction angle at which every grasp of the step is "
+           "force closure. Friction margin: the plan’s friction angle minus the required one. "
+           "Displacement, rotation and slip: the largest values in the replay of the step and in "
+           "the disturbance test after it.")};
 }
 
 std::vector<Element> MakeFingerTable(const Report& report) {
@@ -200,10 +216,11 @@ std::vector<Element> MakeFingerTable(const Report& report) {
   }
   return {
       Element("h2", {}, "Fingers"),
-      ScrolledTable(HeadCells({"Finger", "Needs alone", "Margin", "Others need without it"}), rows),
-      Note("Needs alone: how far the friction angle of this finger may fall while all "
-           "others keep theirs; 0 if it is not needed. Others need without it: the "
-           "friction angle at which the grasp is force closure without this finger.")};
+      ScrolledTable(
+          HeadCells({"Finger", "Required alone", "Friction margin", "Required without it"}), rows),
+      Note("Required alone: the smallest friction angle of this finger at which the grasp is "
+           "force closure while all others keep theirs. Required without it: the friction angle "
+           "at which the grasp is force closure without this finger.")};
 }
 
 }  // namespace regrasp::report

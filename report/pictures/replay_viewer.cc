@@ -24,6 +24,9 @@ using render::ViewerScene;
 constexpr double kLeastGoalTurn = Radians(0.5);
 /// Least share of creases among the edges at which a surface bends, for creases to be drawn.
 constexpr double kLeastCreaseShare = 0.25;
+/// Distance between the surfaces of successive links, in object diameters. Links that share a
+/// sphere at a joint would flicker without it.
+constexpr double kLinkGap = 1.5e-3;
 /// Largest number of entries that the choice of the first camera considers.
 constexpr std::size_t kMostConsidered = 12;
 
@@ -90,6 +93,12 @@ void AddTurns(const HandPicture& hand, int entries, ViewerScene& scene) {
   }
 }
 
+void Grow(double by, render::ShadedMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) mesh.triangles[i][k] += by * mesh.normals[i][k];
+  }
+}
+
 void AddHand(const HandPicture& hand, ViewerScene& scene) {
   scene.X_WP = hand.X_WP();
   std::vector<int> first_joints;
@@ -105,6 +114,7 @@ void AddHand(const HandPicture& hand, ViewerScene& scene) {
     const bool of_palm = !view.link.finger.valid() || view.link.joints == 0;
     const int joint = of_palm ? -1 : first_joints[view.link.finger] + view.link.joints - 1;
     scene.links.push_back({joint, view.link.finger, view.is_fingertip, view.mesh});
+    Grow(kLinkGap * scene.diameter_m * view.link.joints, scene.links.back().mesh);
   }
 }
 
@@ -149,12 +159,19 @@ Vector3d DirectionToEye(const render::BodyShape& body, const render::NormalizedF
   return render::ChooseViewpoints(body, planar, glyphs, largest_force, placements).common;
 }
 
-render::ViewerFailure FailureOf(const render::FaultMarks& marks, const ViewerScene& scene) {
+render::ViewerFailure FailureOf(const render::FaultMarks& marks, const HandPicture* hand,
+                                const ViewerScene& scene) {
   render::ViewerFailure failure;
   failure.heading = marks.heading;
   for (std::size_t i = 0; i < scene.fingers.size(); ++i) {
     if (std::ranges::find(marks.fingers, scene.fingers[i].finger) != marks.fingers.end()) {
       failure.fingers.push_back(static_cast<int>(i));
+    }
+  }
+  for (std::size_t i = 0; i < scene.links.size(); ++i) {
+    const plan::HandLink& link = (*hand->view())[i].link;
+    if (std::ranges::find(marks.links, link) != marks.links.end()) {
+      failure.links.push_back(static_cast<int>(i));
     }
   }
   for (const auto& [from, to, text] : marks.dimensions) {
@@ -239,7 +256,7 @@ ViewerScene MakeViewerScene(const object::Object& object, const plan::Plan& plan
   }
   AddSteps(plan, entries, timeline.ends, hand, scene);
   scene.to_eye = DirectionToEye(body, frame, entries, options, scene.planar);
-  if (entries.back().marks) scene.failure = FailureOf(*entries.back().marks, scene);
+  if (entries.back().marks) scene.failure = FailureOf(*entries.back().marks, hand, scene);
   return scene;
 }
 

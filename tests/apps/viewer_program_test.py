@@ -170,6 +170,20 @@ class Viewer(ProgramCase):
                  "document.getElementById('viewer').viewer.scene.ghost.quaternion.clone().inverse()))")
         self.assertAlmostEqual(self.browser.value(angle), turned, delta=1)
 
+        # Without recorded states the hand follows the plan, and a failed check of the hand stops it.
+        hand = ["--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"), "--plan", "turn.json",
+                "--output", "result", "--frames", "none,viewer=all"]
+        for more, code in ((["--engine", "ode"], None), (["--clearance", "0.05"], 1)):
+            done = self.run_program(*hand, *more)
+            self.assertIn(done.returncode, [0, 1] if code is None else [code], done.stderr)
+            self.open()
+            self.assertEqual(self.browser.console, [])
+            self.assertTrue(self.browser.value(RUNNING))
+            self.assertIn("not the time of the simulation", self.browser.value(line))
+        failure = "document.getElementById('viewer').viewer.data.failure"
+        self.assertGreater(self.browser.value(failure + ".links.length"), 0)
+        self.assertIn("apart", self.browser.value("document.querySelector('.tag.mark').textContent"))
+
     def test_it_fits_a_phone(self):
         self.validate_cube()
         self.browser.resize(390, 844)

@@ -147,7 +147,8 @@ TEST(ViewerSceneTest, NamesCannotEndTheScript) {
   const std::string evil = "</script><script>alert('\"&\\')</script><!--]]>\u2028\u202e\xff";
   ViewerScene scene = MakeScene();
   scene.object_name = scene.fingers[0].name = scene.steps[0].title = scene.steps[1].reason = evil;
-  scene.failure = ViewerFailure{evil, {0}, {{Vector3d::Zero(), Vector3d::UnitX(), false, evil}}};
+  scene.failure =
+      ViewerFailure{evil, {0}, {}, {{Vector3d::Zero(), Vector3d::UnitX(), false, evil}}};
   const std::string text = FormatViewerScene(scene);
   EXPECT_THAT(text, Not(HasSubstr("<")));
   EXPECT_THAT(text, Not(HasSubstr(">")));
@@ -162,7 +163,10 @@ TEST(ViewerSceneTest, NumbersThatAreNotFiniteBecomeZero) {
   scene.samples[0].contacts[0].point.x() = std::numeric_limits<double>::quiet_NaN();
   scene.samples[1].contacts[0].force.x() = std::numeric_limits<double>::infinity();
   scene.failure = ViewerFailure{
-      "", {}, {{Vector3d::Constant(std::numeric_limits<double>::infinity()), {}, false, "far"}}};
+      "",
+      {},
+      {},
+      {{Vector3d::Constant(std::numeric_limits<double>::infinity()), {}, false, "far"}}};
   const Json json = Parsed(scene);
   EXPECT_EQ(ValueOf(json["samples"], 2, 9, 0), 0);
   EXPECT_EQ(ValueOf(json["samples"], 2, 15, 1), 0);

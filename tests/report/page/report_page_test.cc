@@ -78,7 +78,7 @@ TEST(ReportPageTest, APlanThatPassesSaysSoAndHasALineForEachStep) {
   EXPECT_THAT(page, HasSubstr("12.50°"));
   EXPECT_THAT(page, HasSubstr("7.50°"));
   EXPECT_THAT(page, HasSubstr("4.14\u00a0µm"));
-  EXPECT_THAT(page, HasSubstr("2\u00a0nm"));
+  EXPECT_THAT(page, HasSubstr("&lt; 1\u00a0µm"));
   EXPECT_EQ(Count(page, "<svg"), 2);
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_EQ(page, FormatReportHtml(scene.report, scene.plan, {}));
@@ -157,7 +157,10 @@ TEST(ReportPageTest, TheInteractiveReplayFollowsTheVerdict) {
     const auto place = [&](const char* part) { return page.find(part); };
     EXPECT_LT(place("class=\"verdict"), place("id=\"viewer\""));
     EXPECT_LT(place("id=\"viewer\""), place("<img"));
-    EXPECT_LT(place("<img"), place("<dl"));
+    EXPECT_LT(place("<img"), place("<table"));
+    EXPECT_LT(place("<table"), place("<svg"));
+    EXPECT_LT(place("<svg"), place("<dl"));
+    EXPECT_LT(place("<details>"), place("SHA-256"));
     EXPECT_EQ(Count(page, "<img"), 2);  // each image once
     EXPECT_EQ(Count(page, "class=\"still\""), fails ? 0 : 1);
     const std::string only = FormatViewerHtml(scene.report, scene.plan, "{}");

@@ -1,16 +1,16 @@
-#include "apps/hand_recorder.h"
+#include "report/pictures/hand_recorder.h"
 
 #include <utility>
 
 #include "planner/plan/projection.h"
 
-namespace regrasp::apps {
+namespace regrasp::report {
 
 void HandRecorder::Add(const sim::HandWorld& world) {
   const bool is_first = samples_.empty() || samples_.back().entry != entry_;
   const double half_step = world.timestep() / 2;
   if (!is_first && world.time() < samples_.back().time_s + interval_s_ - half_step) return;
-  report::HandSample& sample = samples_.emplace_back();
+  HandSample& sample = samples_.emplace_back();
   sample.entry = entry_;
   sample.time_s = world.time();
   sample.state = world.state();
@@ -30,7 +30,7 @@ void HandRecorder::Add(const sim::HandWorld& world) {
 
 void HandRecorder::Thin() {
   interval_s_ *= 2;
-  std::vector<report::HandSample> kept;
+  std::vector<HandSample> kept;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     // The first state of an entry is kept.
     const bool is_first = i == 0 || samples_[i].entry != samples_[i - 1].entry;
@@ -39,4 +39,4 @@ void HandRecorder::Thin() {
   samples_ = std::move(kept);
 }
 
-}  // namespace regrasp::apps
+}  // namespace regrasp::report

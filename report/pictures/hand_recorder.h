@@ -6,7 +6,7 @@
 #include "report/pictures/replay_timeline.h"
 #include "sim/actuation/hand_world.h"
 
-namespace regrasp::apps {
+namespace regrasp::report {
 
 /// Records the states of a replay by a hand for the interactive 3-D replay.
 class HandRecorder {
@@ -19,7 +19,7 @@ class HandRecorder {
   /// Start the next entry of the plan.
   void EndEntry() { entry_ = plan::EntryIndex(entry_ + 1); }
 
-  [[nodiscard]] const std::vector<report::HandSample>& samples() const { return samples_; }
+  [[nodiscard]] const std::vector<HandSample>& samples() const { return samples_; }
 
   inline static constexpr double kInterval = 0.02;  ///< seconds
   inline static constexpr int kMostSamples = 4000;
@@ -29,7 +29,7 @@ class HandRecorder {
 
   plan::EntryIndex entry_{0};
   double interval_s_ = kInterval;
-  std::vector<report::HandSample> samples_;
+  std::vector<HandSample> samples_;
 };
 
-}  // namespace regrasp::apps
+}  // namespace regrasp::report
