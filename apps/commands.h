@@ -11,7 +11,7 @@ struct Command {
   const char* text;  ///< purpose of the program, one sentence
 };
 
-inline constexpr std::array<Command, 7> kCommands = {{
+inline constexpr std::array<Command, 8> kCommands = {{
     {"plan", "Finds a regrasp sequence from a start grasp to a goal grasp and writes a plan."},
     {"validate",
      "Checks plans or grasps analytically, replays them in MuJoCo, tests every static grasp with "
@@ -21,6 +21,9 @@ inline constexpr std::array<Command, 7> kCommands = {{
     {"repair",
      "Makes a closed solid of a scan, a broken mesh or several shells, and reports the changes."},
     {"merge", "Joins the shards of a run over many plans into the file that one run writes."},
+    {"evaluate",
+     "Tests grasps of data sets on their own hand, with all of its links, analytically and in "
+     "MuJoCo."},
     {"hand",
      "Finds palm, fingers and fingertips in a hand model, and prints joints, limits and reach."},
 }};
