@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/help.h"
 #include "apps/evaluate_lines.h"
+#include "apps/help.h"
 #include "apps/list_option.h"
 #include "apps/options.h"
 #include "apps/program.h"
@@ -70,7 +70,8 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   AddQuiet(app, options.quiet);
   app.footer(
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --output reports.jsonl\n"
-      "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol fall,disturbance -o "
+      "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol "
+      "fall,disturbance -o "
       "reports.jsonl\n");
 }
 

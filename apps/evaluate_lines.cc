@@ -1,14 +1,18 @@
 #include "apps/evaluate_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "apps/batch/object_cache.h"
 #include "apps/evaluate_table.h"
@@ -16,6 +20,7 @@
 #include "apps/output_files.h"
 #include "apps/program.h"
 #include "planner/base/error.h"
+#include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "planner/object/polyhedron.h"
@@ -35,6 +40,34 @@ double Rounded(double value) {
   double factor = 1;
   for (int i = 0; i < kDecimals; ++i) factor *= 10;
   return std::round(value * factor) / factor + 0.0;
+}
+
+/// Ending of the folder with the convex pieces of an object, next to the object's file.
+constexpr char kPiecesEnding[] = "_pieces";
+
+/// Return the files of an object's convex pieces, sorted: cup_pieces/*.obj for cup.obj.
+std::vector<std::filesystem::path> PieceFiles(const std::filesystem::path& object) {
+  const std::filesystem::path folder =
+      object.parent_path() / (object.stem().string() + kPiecesEnding);
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".obj") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+/// @throws InputError  if a file is not a solid.
+sim::GraspWorld::Pieces ReadPieces(const std::filesystem::path& object) {
+  sim::GraspWorld::Pieces pieces;
+  for (const std::filesystem::path& file : PieceFiles(object)) {
+    const object::ObjectFile piece = object::ReadObject(file);
+    const auto* solid = dynamic_cast<const object::Polyhedron*>(piece.object.get());
+    if (solid == nullptr) throw InputError(file.string() + ": expected a solid, found a polygon");
+    pieces.push_back(solid->vertices());
+  }
+  return pieces;
 }
 
 /// A hand with an object of one size.
@@ -119,7 +152,8 @@ class EvaluateLines {
       return GuardLine(line, [&] { return Evaluate(line); });
     };
     run.work.inputs = [this](const Line& line) {
-      return EntryDigest(common_, line, ObjectOf(line), finder_);
+      const std::optional<ObjectOfLine> object = ObjectOf(line);
+      return EntryDigest(common_ + PiecesDigest(object, line), line, object, finder_);
     };
     const int code = RunLinesFile(run);
     if (code <= kExitBadInput && !options_.quiet) {
@@ -133,10 +167,9 @@ class EvaluateLines {
     OutputFiles outputs;
     outputs.Add("--output", options_.output);
     outputs.Add("--output", options_.output + kPartEnding);
-    CheckOutputsDiffer({{"--grasps", options_.grasps},
-                        {"--hand", options_.hand},
-                        {"--object", options_.object}},
-                       outputs);
+    CheckOutputsDiffer(
+        {{"--grasps", options_.grasps}, {"--hand", options_.hand}, {"--object", options_.object}},
+        outputs);
     CheckOutputsWritable(outputs);
   }
 
@@ -167,6 +200,22 @@ class EvaluateLines {
     }
   }
 
+  /// Return the digest of the convex pieces of an object; empty without pieces.
+  std::string PiecesDigest(const std::optional<ObjectOfLine>& object, const Line& line) {
+    if (!object) return "";
+    try {
+      const std::string path = finder_.Find(object->name, "", line.name);
+      const auto [at, is_new] = pieces_.try_emplace(path);
+      if (!is_new) return at->second;
+      for (const std::filesystem::path& file : PieceFiles(path)) {
+        at->second += Sha256(ReadFile(file));
+      }
+      return at->second;
+    } catch (const InputError&) {
+      return "";  // the child process reports the error
+    }
+  }
+
   void Prepare(const Line& line) {
     try {
       static_cast<void>(WorldOf(sim::ParseHandGrasp(line.text, line.name), line));
@@ -194,7 +243,7 @@ class EvaluateLines {
     const auto* solid = dynamic_cast<const object::Polyhedron*>(made.object->object.get());
     if (solid == nullptr) throw InputError(path + ": expected a solid, found a polygon");
     sim::CheckGraspScale(grasp, hand_, *solid, line.name);
-    made.world = std::make_unique<sim::GraspWorld>(hand_, *solid, grasp.scale);
+    made.world = std::make_unique<sim::GraspWorld>(hand_, *solid, grasp.scale, ReadPieces(path));
     made.geometry = std::make_unique<sim::GraspGeometry>(*made.world, *solid, grasp.scale);
     if (worlds_.size() >= kMostWorlds) worlds_.pop_back();
     worlds_.push_front(std::move(made));
@@ -219,8 +268,9 @@ class EvaluateLines {
   ObjectFinder finder_;
   sim::WholeHand hand_;
   ObjectCache objects_;
-  std::list<PreparedGrasps> worlds_;  ///< most recently used first
-  std::string common_;                ///< digest of the inputs of all lines
+  std::list<PreparedGrasps> worlds_;           ///< most recently used first
+  std::map<std::string, std::string> pieces_;  ///< digests of the pieces by object path
+  std::string common_;                         ///< digest of the inputs of all lines
 };
 
 }  // namespace

@@ -36,7 +36,8 @@ void CountReport(const Line& line, EvaluateCounts& counts) {
 }
 
 /// Append the rows of a confusion table.
-void AddConfusion(const std::string& title, const std::map<std::string, EvaluateCounts::Confusion>& by,
+void AddConfusion(const std::string& title,
+                  const std::map<std::string, EvaluateCounts::Confusion>& by,
                   std::vector<TextRow>& rows) {
   rows.push_back({title, "pass, claimed", "fail, claimed", "pass, not claimed", "fail, not claimed",
                   "pass, no claim", "fail, no claim"});

@@ -14,8 +14,8 @@ struct EvaluateCounts {
   struct Confusion {
     std::array<std::array<std::int64_t, 2>, 3> counts = {};
   };
-  std::map<std::string, Confusion> by_object;    ///< by object file
-  std::map<std::string, Confusion> by_protocol;  ///< by name of the protocol
+  std::map<std::string, Confusion> by_object;     ///< by object file
+  std::map<std::string, Confusion> by_protocol;   ///< by name of the protocol
   std::map<std::string, std::int64_t> by_reason;  ///< by name of the reason
 };
 

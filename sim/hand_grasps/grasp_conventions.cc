@@ -48,8 +48,8 @@ void CheckDegrees(const HandGrasp& grasp, const GraspWorld& world, const std::st
     const double outside = std::max(value - joint.upper, joint.lower - value);
     if (outside < 2 * std::numbers::pi) continue;
     throw InputError(where + ": /joints/" + joint.name + ": outside its range, expected " +
-                     FormatShort(joint.lower) + " to " + FormatShort(joint.upper) +
-                     " rad, found " + FormatShort(value) + "; help: convert degrees to radians");
+                     FormatShort(joint.lower) + " to " + FormatShort(joint.upper) + " rad, found " +
+                     FormatShort(value) + "; help: convert degrees to radians");
   }
 }
 

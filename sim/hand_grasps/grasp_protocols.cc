@@ -29,8 +29,8 @@ constexpr double kFallGravity = 9.81;
 constexpr double kFallSeconds = 3;
 /// An object that the hand does not touch for this time is dropped, seconds.
 constexpr double kUntouchedSeconds = 0.1;
-/// Disturbance test: duration of a force in time steps, limits of the motion, range of forces in newtons, and
-/// largest ratio of the bounds.
+/// Disturbance test: duration of a force in time steps, limits of the motion, range of forces in
+/// newtons, and largest ratio of the bounds.
 constexpr int kDisturbanceSteps = 125;
 constexpr double kDisturbanceMotion = 0.01;
 constexpr double kLeastForce = 0.05;
@@ -184,8 +184,7 @@ class GraspTester {
         for (int step = 0; step < kBenchSteps; ++step) world_.Step();
         const Isometry3d pose = world_.object_pose();
         result.moved_m = std::max(*result.moved_m, pose.translation().norm());
-        result.rotated_deg =
-            std::max(*result.rotated_deg, AngleDeg(Isometry3d::Identity(), pose));
+        result.rotated_deg = std::max(*result.rotated_deg, AngleDeg(Isometry3d::Identity(), pose));
         if (*result.moved_m < kBenchMotion && *result.rotated_deg < kBenchAngleDeg) continue;
         result.fault = GraspFault::kObjectMoved;
         return;
@@ -272,22 +271,24 @@ class GraspTester {
   GraspWorld& world_;
   GraspVerdict verdict_;
   HandConfiguration target_;
-  std::optional<EngineState> closed_;  ///< state after the hand has closed
-  bool is_touched_ = false;            ///< whether the hand then touches the object
+  std::optional<EngineState> closed_;                  ///< state after the hand has closed
+  bool is_touched_ = false;                            ///< whether the hand then touches the object
   Isometry3d closed_object_ = Isometry3d::Identity();  ///< object in the palm's frame then
 };
 
 }  // namespace
 
 std::string_view GraspProtocolName(GraspProtocol protocol) {
-  constexpr std::array<std::string_view, 4> kNames = {"analytic", "dexgraspbench", "fall", "disturbance"};
+  constexpr std::array<std::string_view, 4> kNames = {"analytic", "dexgraspbench", "fall",
+                                                      "disturbance"};
   return kNames[static_cast<std::size_t>(protocol)];
 }
 
 std::string_view GraspFaultName(GraspFault fault) {
   constexpr std::array<std::string_view, 9> kNames = {
-      "none",         "joints-out-of-range", "penetrates",         "no-contact", "not-force-closure",
-      "object-moved", "dropped",             "force-not-resisted", "unstable"};
+      "none",       "joints-out-of-range", "penetrates",
+      "no-contact", "not-force-closure",   "object-moved",
+      "dropped",    "force-not-resisted",  "unstable"};
   return kNames[static_cast<std::size_t>(fault)];
 }
 

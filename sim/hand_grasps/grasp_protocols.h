@@ -45,11 +45,11 @@ struct GraspTest {
 struct ProtocolResult {
   GraspProtocol protocol = GraspProtocol::kAnalytic;
   GraspFault fault = GraspFault::kNone;
-  std::optional<double> quality;          ///< analytic: lower bound of ε; absent if not closed
-  std::optional<double> moved_m;          ///< dexgraspbench: largest translation of the object
-  std::optional<double> rotated_deg;      ///< dexgraspbench: largest rotation of the object
+  std::optional<double> quality;      ///< analytic: lower bound of ε; absent if not closed
+  std::optional<double> moved_m;      ///< dexgraspbench: largest translation of the object
+  std::optional<double> rotated_deg;  ///< dexgraspbench: largest rotation of the object
   std::vector<std::optional<double>> seconds;  ///< fall: held time by direction; absent: not run
-  std::vector<double> resisted_N;         ///< disturbance: resisted force by direction
+  std::vector<double> resisted_N;              ///< disturbance: resisted force by direction
 
   [[nodiscard]] bool passed() const { return fault == GraspFault::kNone; }
 };
@@ -57,7 +57,7 @@ struct ProtocolResult {
 /// Result of all protocols for a grasp.
 struct GraspVerdict {
   std::vector<LinkTouch> touches;  ///< links of the grasp's configuration
-  double distance_m = 0;           ///< smallest signed distance of the configuration; negative: depth
+  double distance_m = 0;  ///< smallest signed distance of the configuration; negative: depth
   std::vector<ProtocolResult> results;
 
   /// Return the fault of the first protocol that fails.

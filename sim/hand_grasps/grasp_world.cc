@@ -40,6 +40,8 @@ constexpr std::array<double, 2> kObjectSolref = {0.02, 1};
 constexpr std::array<double, 5> kObjectSolimp = {0.9, 0.95, 0.001, 0.5, 2};
 constexpr double kImpratio = 10;
 constexpr int kNoslipIterations = 2;
+/// Largest number of pieces of an object that is not a surface shell. Decompositions have fewer.
+constexpr int kMostPieces = 256;
 
 XmlElement ObjectElement(std::string name,
                          std::vector<std::pair<std::string, std::string>> attributes) {
@@ -49,18 +51,13 @@ XmlElement ObjectElement(std::string name,
   return element;
 }
 
-XmlElement MeshElement(const std::string& name, std::span<const Vector3d> vertices,
-                       const std::vector<std::array<int, 3>>& triangles) {
+/// Return a mesh whose triangles MuJoCo computes: the convex hull.
+XmlElement HullElement(const std::string& name, std::span<const Vector3d> vertices) {
   std::vector<double> numbers;
   for (const Vector3d& at : vertices) numbers.insert(numbers.end(), at.begin(), at.end());
-  std::string faces;
-  for (const auto& triangle : triangles) {
-    for (const int corner : triangle) faces += (faces.empty() ? "" : " ") + std::to_string(corner);
-  }
   // The hand's model may have a default scale of meshes.
-  return ObjectElement(
-      "mesh",
-      {{"name", name}, {"scale", "1 1 1"}, {"vertex", NumbersText(numbers)}, {"face", faces}});
+  return ObjectElement("mesh",
+                       {{"name", name}, {"scale", "1 1 1"}, {"vertex", NumbersText(numbers)}});
 }
 
 XmlElement GeomElement(const std::string& mesh) {
@@ -73,8 +70,24 @@ XmlElement GeomElement(const std::string& mesh) {
                                 {"conaffinity", "0"}});
 }
 
+/// Return the convex hulls that are the collision geometry of an object, in metres from its
+/// centroid.
+GraspWorld::Pieces HullsOf(const object::Polyhedron& solid, double scale,
+                           const GraspWorld::Pieces& pieces) {
+  GraspWorld::Pieces hulls = IsConvex(solid) ? GraspWorld::Pieces{solid.vertices()} : pieces;
+  for (std::vector<Vector3d>& hull : hulls) {
+    for (Vector3d& point : hull) point = scale * (point - solid.mass_properties().centroid);
+  }
+  if (!hulls.empty()) return hulls;
+  for (const ShellPiece& piece : SurfaceShell(solid, scale)) {
+    hulls.emplace_back(piece.begin(), piece.end());
+  }
+  return hulls;
+}
+
 /// Add the object of 1 kg with its collision geometry.
-void AddObject(const object::Polyhedron& solid, double scale, XmlElement& root) {
+void AddObject(const object::Polyhedron& solid, double scale, const GraspWorld::Pieces& pieces,
+               XmlElement& root) {
   const object::MassProperties& properties = solid.mass_properties();
   const Eigen::Matrix3d inertia = scale * scale / properties.volume * properties.inertia;
   XmlElement body = ObjectElement("body", {{"name", kGraspObject}});
@@ -82,25 +95,14 @@ void AddObject(const object::Polyhedron& solid, double scale, XmlElement& root) 
   body.children.push_back(ObjectElement(
       "inertial", {{"pos", "0 0 0"},
                    {"mass", "1"},
-                   {"fullinertia",
-                    NumbersText({inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1),
-                                 inertia(0, 2), inertia(1, 2)})}}));
+                   {"fullinertia", NumbersText({inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                                inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}));
   XmlElement assets = ObjectElement("asset", {});
-  if (IsConvex(solid)) {
-    std::vector<Vector3d> vertices;
-    for (const Vector3d& vertex : solid.vertices()) {
-      vertices.emplace_back(scale * (vertex - properties.centroid));
-    }
-    assets.children.push_back(MeshElement(kGraspObject, vertices, solid.triangles()));
-    body.children.push_back(GeomElement(kGraspObject));
-  } else {
-    int number = 0;
-    for (const ShellPiece& piece : SurfaceShell(solid, scale)) {
-      const std::string name = std::string(kGraspObject) + "_" + std::to_string(number++);
-      assets.children.push_back(
-          MeshElement(name, piece, {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}}));
-      body.children.push_back(GeomElement(name));
-    }
+  int number = 0;
+  for (const std::vector<Vector3d>& hull : HullsOf(solid, scale, pieces)) {
+    const std::string name = std::string(kGraspObject) + "_" + std::to_string(number++);
+    assets.children.push_back(HullElement(name, hull));
+    body.children.push_back(GeomElement(name));
   }
   root.children.push_back(std::move(assets));
   XmlElement world = ObjectElement("worldbody", {});
@@ -128,10 +130,11 @@ void SetContactParameters(int geom, const std::array<double, 2>& solref,
 
 }  // namespace
 
-GraspWorld::GraspWorld(const WholeHand& hand, const object::Polyhedron& solid, double scale)
+GraspWorld::GraspWorld(const WholeHand& hand, const object::Polyhedron& solid, double scale,
+                       const Pieces& pieces)
     : centroid_(scale * solid.mass_properties().centroid) {
   kinematics::ModelText text = hand.text;
-  AddObject(solid, scale, text.root);
+  AddObject(solid, scale, pieces, text.root);
   model_ = kinematics::CompileText(hand.model_file, text);
   data_.reset(mj_makeData(model_.get()));
   scratch_.reset(mj_makeData(model_.get()));
@@ -149,8 +152,7 @@ void GraspWorld::FindParts(const WholeHand& hand) {
   object_body_ = mj_name2id(&model, mjOBJ_BODY, kGraspObject);
   object_qpos_ = model.jnt_qposadr[model.body_jntadr[object_body_]];
   palm_ = mj_name2id(&model, mjOBJ_BODY, hand.palm.c_str());
-  hand_qpos_ =
-      model.jnt_qposadr[model.body_jntadr[mj_name2id(&model, mjOBJ_BODY, kWholeHandBody)]];
+  hand_qpos_ = model.jnt_qposadr[model.body_jntadr[mj_name2id(&model, mjOBJ_BODY, kWholeHandBody)]];
   is_link_.assign(model.nbody, false);
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const int body = model.geom_bodyid[geom];
@@ -175,8 +177,8 @@ void GraspWorld::FindFollowers() {
   const mjModel& model = *model_;
   for (int i = 0; i < model.neq; ++i) {
     if (model.eq_type[i] != mjEQ_JOINT || model.eq_active[i] == 0) continue;
-    followers_.push_back({model.eq_obj1id[i], model.eq_obj2id[i],
-                          model.eq_data + std::ptrdiff_t{mjNEQDATA} * i});
+    followers_.push_back(
+        {model.eq_obj1id[i], model.eq_obj2id[i], model.eq_data + std::ptrdiff_t{mjNEQDATA} * i});
   }
 }
 
@@ -238,7 +240,9 @@ void GraspWorld::SetOptions() {
   opt.impratio = kImpratio;
   opt.noslip_iterations = kNoslipIterations;
   opt.disableflags = mjDSBL_GRAVITY;
-  opt.enableflags = mjENBL_MULTICCD;
+  // Many pieces have many contacts without it.
+  const bool is_shell = model_->body_geomnum[object_body_] > kMostPieces;
+  opt.enableflags = is_shell ? 0 : mjENBL_MULTICCD;
 }
 
 void GraspWorld::SetPhysics(const GraspPhysics& physics) {
@@ -256,7 +260,8 @@ void GraspWorld::SetPhysics(const GraspPhysics& physics) {
   UpdateConstants(model, *data_);
 }
 
-void GraspWorld::CheckJoints(const HandConfiguration& configuration, const std::string& where) const {
+void GraspWorld::CheckJoints(const HandConfiguration& configuration,
+                             const std::string& where) const {
   for (const auto& [name, unused] : configuration.joints) {
     if (joint_ids_.contains(name)) continue;
     std::string names;
@@ -380,7 +385,8 @@ std::map<std::string, double> GraspWorld::JointMotion(int link, const Vector3d& 
   for (const JointRange& joint : joints_) {
     const int dof = model.jnt_dofadr[joint_ids_.at(joint.name)];
     double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += direction[i] * jacobian[static_cast<std::size_t>(i) * model.nv + dof];
+    for (int i = 0; i < 3; ++i)
+      sum += direction[i] * jacobian[static_cast<std::size_t>(i) * model.nv + dof];
     motion[joint.name] = sum;
   }
   return motion;

@@ -30,7 +30,8 @@ struct GraspPhysics {
 ///
 /// All collision geometry of the hand touches the object and, as in its model, itself. The palm
 /// follows the mount by a weld, as in DexGraspBench. There is no gravity; loads on the object
-/// replace it. A convex object is one mesh, any other object is its surface shell (surface_shell.h).
+/// replace it. A convex object is one mesh. Any other object is its convex pieces if they are
+/// given, otherwise its surface shell (surface_shell.h), which takes more time.
 ///
 /// Actuators of the model are position servos, or become such servos. Contact stiffness, time step,
 /// integrator and friction cones are those of DexGraspBench (docs/evaluate_grasps.md).
@@ -44,9 +45,14 @@ class GraspWorld {
     double lower = 0, upper = 0;  ///< radians or metres
   };
 
-  /// @param scale  metres per unit of the object's file.
+  /// Points whose convex hulls together are the object, in its frame and unit.
+  using Pieces = std::vector<std::vector<Eigen::Vector3d>>;
+
+  /// @param scale   metres per unit of the object's file.
+  /// @param pieces  convex pieces of the object; empty: none.
   /// @throws InputError  if MuJoCo rejects the hand together with the object.
-  GraspWorld(const WholeHand& hand, const object::Polyhedron& solid, double scale);
+  GraspWorld(const WholeHand& hand, const object::Polyhedron& solid, double scale,
+             const Pieces& pieces = {});
 
   void SetPhysics(const GraspPhysics& physics);
 
@@ -62,7 +68,8 @@ class GraspWorld {
 
   /// Place the hand and the object without velocity, with the actuators at the configuration.
   void Place(const HandConfiguration& configuration);
-  /// Command a configuration that is a share between two configurations: the palm and the actuators.
+  /// Command a configuration that is a share between two configurations: the palm and the
+  /// actuators.
   void Command(const HandConfiguration& from, const HandConfiguration& to, double share);
   /// Set the force on the object at its centroid, in newtons in the frame of the placed object.
   void SetForce(const Eigen::Vector3d& force);

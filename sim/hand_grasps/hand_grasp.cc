@@ -58,8 +58,9 @@ void ReadJoints(const Json& value, const JsonReader& json, std::map<std::string,
   }
 }
 
-std::optional<HandConfiguration> ReadConfiguration(const Json& value, const JsonReader& line, const char* key,
-                                       const HandConfiguration& grasp) {
+std::optional<HandConfiguration> ReadConfiguration(const Json& value, const JsonReader& line,
+                                                   const char* key,
+                                                   const HandConfiguration& grasp) {
   if (!line.Has(key)) return std::nullopt;
   const JsonReader json = line.Member(key);
   if (!value[key].is_object()) json.Fail("expected an object with palm, joints or both");

@@ -22,9 +22,9 @@ struct HandGrasp {
   double scale = 1;         ///< metres per unit of the object's file
   HandConfiguration grasp;
   std::optional<HandConfiguration> pregrasp;  ///< configuration before the fingers close
-  std::optional<HandConfiguration> target;   ///< configuration that the actuators are commanded to
-  std::optional<bool> claimed;          ///< success that the data set claims
-  std::optional<double> score;          ///< score of the data set
+  std::optional<HandConfiguration> target;    ///< configuration that the actuators are commanded to
+  std::optional<bool> claimed;                ///< success that the data set claims
+  std::optional<double> score;                ///< score of the data set
 };
 
 /// Parse a line of a file of hand grasps.

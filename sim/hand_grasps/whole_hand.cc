@@ -61,11 +61,10 @@ kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compile
   for (const kinematics::Mimic& mimic : urdf.mimics) {
     following.insert(mimic.joint);
     couplings.push_back(HandElement(
-        "joint",
-        {{"joint1", mimic.joint},
-         {"joint2", mimic.follows},
-         {"polycoef",
-          FormatDouble(mimic.offset) + " " + FormatDouble(mimic.multiplier) + " 0 0 0"}}));
+        "joint", {{"joint1", mimic.joint},
+                  {"joint2", mimic.follows},
+                  {"polycoef",
+                   FormatDouble(mimic.offset) + " " + FormatDouble(mimic.multiplier) + " 0 0 0"}}));
   }
   for (const std::string& joint : ScalarJoints(*compiled.model)) {
     if (following.contains(joint)) continue;
@@ -129,10 +128,10 @@ void WrapHand(const std::string& palm, XmlElement& root) {
   root.children.push_back(HandElement(
       "worldbody", {},
       {HandElement("body", {{"name", kWholeHandMount}, {"mocap", "true"}}), std::move(frame)}));
-  root.children.push_back(HandElement("equality", {},
-                                      {HandElement("weld", {{"body1", kWholeHandMount},
-                                                            {"body2", palm},
-                                                            {"relpose", "0 0 0 1 0 0 0"}})}));
+  root.children.push_back(HandElement(
+      "equality", {},
+      {HandElement("weld",
+                   {{"body1", kWholeHandMount}, {"body2", palm}, {"relpose", "0 0 0 1 0 0 0"}})}));
 }
 
 /// Return the digest of the hand file, the model's files and the meshes, as that of a hand.
