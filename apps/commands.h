@@ -11,13 +11,14 @@ struct Command {
   const char* text;  ///< purpose of the program, one sentence
 };
 
-inline constexpr std::array<Command, 7> kCommands = {{
+inline constexpr std::array<Command, 8> kCommands = {{
     {"plan", "Find a regrasp sequence from a start grasp to a goal grasp."},
     {"validate", "Check plans or grasps analytically and in simulation."},
     {"graph", "Build the switching graph of an object and print its size."},
     {"figure", "Draw each step of a plan as a figure, and a sheet of all steps."},
     {"repair", "Make a closed solid of a scan, a broken mesh or several shells."},
     {"merge", "Join the shards of a run over many plans into one file."},
+    {"evaluate", "Test grasps of data sets on their own hand, analytically and in MuJoCo."},
     {"hand", "Find palm, fingers and fingertips of a hand model and write a hand file."},
 }};
 

@@ -12,6 +12,7 @@
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/gait/goal_list.h"
 #include "planner/gait/request.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"

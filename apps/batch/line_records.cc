@@ -21,10 +21,12 @@ constexpr char kHeaderFormat[] = "regrasp-lines";
 constexpr char kNoResultFormat[] = "regrasp-none";
 
 /// Beginnings of lines after the entry's number.
-constexpr std::array<std::pair<std::string_view, Outcome>, 6> kBeginnings = {{
+constexpr std::array<std::pair<std::string_view, Outcome>, 8> kBeginnings = {{
     {R"("format":"regrasp-plan",)", Outcome::kPlan},
     {R"("format":"regrasp-report","version":1,"verdict":"pass",)", Outcome::kPass},
     {R"("format":"regrasp-report","version":1,"verdict":"fail",)", Outcome::kFail},
+    {R"("format":"regrasp-hand-grasp-report","version":1,"verdict":"pass",)", Outcome::kPass},
+    {R"("format":"regrasp-hand-grasp-report","version":1,"verdict":"fail",)", Outcome::kFail},
     {R"("format":"regrasp-none","version":1,"verdict":"no-plan",)", Outcome::kNoPlan},
     {R"("format":"regrasp-none","version":1,"verdict":"bad-input",)", Outcome::kBadInput},
     {R"("format":"regrasp-none","version":1,"verdict":"error",)", Outcome::kError},

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _arguments, _dict_file, _poses
 from ._arguments import member, vector
-from ._hand_grasps import HandGrasps, WorldPoses
+from ._hand_grasps import HandConfigurations, HandGrasps, WorldPoses
 from ._regrasp import InputError
 from ._types import ArrayLike
 
@@ -61,7 +61,8 @@ def read_bodex(path: str | os.PathLike, *, object_pose: ArrayLike | None = None)
     if stages.shape[0] != 1 or stages.shape[2] < 2:
         raise InputError(f"{where} must have shape {shape} with at least two stages, "
                          f"found {stages.shape}")
-    grasps = _grasps(name, data, "robot_pose", stages[0, :, 1], object_pose)
+    sequence = {"pregrasp_qpos": stages[0, :, 0], "squeeze_qpos": stages[0, :, 2]} if stages.shape[2] > 2 else {}
+    grasps = _grasps(name, data, "robot_pose", stages[0, :, 1], object_pose, sequence, "bodex")
     grasps.lost.append("all stages of robot_pose but the second")
     return grasps
 
@@ -113,8 +114,36 @@ def _joint_names(name: str, data: dict, count: int) -> list[str]:
     return names
 
 
-def _grasps(name: str, data: dict, key: str, qpos: np.ndarray,
-            object_pose: ArrayLike | None) -> HandGrasps:
+def _configurations(qpos, count: int, columns: int, pose: np.ndarray) -> HandConfigurations | None:
+    """Return configurations of palms and joints (N, 7 + J) in the world frame; None if they are not such."""
+    try:
+        qpos = np.atleast_2d(np.asarray(qpos, dtype=float))
+        if qpos.shape != (count, columns) or not np.isfinite(qpos).all():
+            return None
+        palms = np.concatenate([qpos[:, :3], _poses.unit("", qpos[:, 3:7])], axis=1)
+    except (InputError, TypeError, ValueError):
+        return None
+    world = WorldPoses(palms, np.broadcast_to(pose, palms.shape).copy())
+    return HandConfigurations(*world.in_object(), qpos[:, 7:])
+
+
+def _object_names(data: dict, count: int) -> list[str] | None:
+    """Return the file names of the objects: the last component of `obj_path`."""
+    path = data.get("obj_path", data.get("interest_obj_name"))
+    stem = os.path.basename(path.rstrip("/")) if isinstance(path, str) else ""
+    return [f"{stem}.obj"] * count if stem else None
+
+
+def _claims(data: dict, count: int) -> np.ndarray | None:
+    """Return `succ_flag` as booleans (N,); None if there is none."""
+    flags = np.asarray(data.get("succ_flag"))
+    if flags.dtype.kind not in "bi" or flags.size not in (1, count):
+        return None
+    return np.broadcast_to(flags.ravel().astype(bool), (count,)).copy()
+
+
+def _grasps(name: str, data: dict, key: str, qpos: np.ndarray, object_pose: ArrayLike | None,
+            sequence: dict | None = None, set_name: str = "dexgraspbench") -> HandGrasps:
     """Return grasps from palms and joints (N, 7 + J) and the object's pose in the world frame."""
     if qpos.shape[1] < 8:
         raise InputError(f"{name}: {key} must have 7 numbers for the pose and one per joint, found shape {qpos.shape}")
@@ -139,4 +168,7 @@ def _grasps(name: str, data: dict, key: str, qpos: np.ndarray,
     stem = os.path.splitext(os.path.basename(name))[0]
     return HandGrasps(*world.in_object(), joint_names, qpos[:, 7:],
                       [f"{stem}_{i}" for i in range(len(qpos))], np.ones(len(qpos)), sorted(lost),
-                      None if scale is None else np.full(len(qpos), scale), world)
+                      None if scale is None else np.full(len(qpos), scale), world,
+                      *(_configurations((data if sequence is None else sequence).get(stage), *qpos.shape, pose)
+                        for stage in ("pregrasp_qpos", "squeeze_qpos")),
+                      claimed=_claims(data, len(qpos)), objects=_object_names(data, len(qpos)), set_name=set_name)

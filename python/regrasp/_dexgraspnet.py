@@ -52,7 +52,9 @@ def read_dexgraspnet(path: str | os.PathLike) -> HandGrasps:
     stem = os.path.splitext(os.path.basename(name))[0]
     return HandGrasps(values[:, :3], _quaternions(values[:, 3:6]), joint_names, values[:, 6:],
                       [f"{stem}_{i}" for i in range(len(rows))], np.ones(len(rows)),
-                      sorted([*lost, _scale_note(scales)]), np.array(scales))
+                      sorted([*lost, _scale_note(scales)]), np.array(scales), objects=[f"{stem}.obj"] * len(rows),
+                      # The released set has only validated grasps, without the energies of the generator.
+                      claimed=None if lost else np.ones(len(rows), dtype=bool), set_name="dexgraspnet")
 
 
 def _number(where: str, value) -> float:

@@ -35,6 +35,23 @@ class WorldPoses:
 
 
 @dataclass
+class HandConfigurations:
+    """Palm poses and joint angles of N hands, with the joints of the grasps to which they belong."""
+
+    positions: np.ndarray
+    """Positions (N, 3) of the palm frame in the object's frame, m."""
+    quaternions: np.ndarray
+    """Unit quaternions (N, 4) of the palm frame, w, x, y, z."""
+    joints: np.ndarray
+    """Joint angles (N, J), radians."""
+
+    def moved(self, palm: np.ndarray, turn: np.ndarray) -> HandConfigurations:
+        """Return the configurations with the pose of a frame at `palm` and `turn` in the palm frame."""
+        return HandConfigurations(self.positions + _poses.matrices(self.quaternions) @ palm, _poses.product(
+            self.quaternions, np.broadcast_to(turn, self.quaternions.shape)), self.joints)
+
+
+@dataclass
 class HandGrasps:
     """N grasps of an object by a hand: palm poses and joint angles."""
 
@@ -56,6 +73,19 @@ class HandGrasps:
     """Metres per unit of the object's file (N,), if the file of the grasps contains them."""
     world: WorldPoses | None = field(default=None, repr=False, compare=False)
     """Original poses, if the file does not give them in the object's frame."""
+
+    pregrasp: HandConfigurations | None = field(default=None, repr=False, compare=False)
+    """Configurations before the hand closes, if the file has them."""
+    target: HandConfigurations | None = field(default=None, repr=False, compare=False)
+    """Configurations that the actuators are commanded to after the grasp, if the file has them."""
+    claimed: np.ndarray | None = None
+    """Claimed success (N,), bool, if the file claims it."""
+    scored: bool = False
+    """Whether the file has the confidences."""
+    objects: list[str] | None = None
+    """File names of the N objects, if the file names them."""
+    set_name: str = ""
+    """Name of the format of the data set."""
 
     def __post_init__(self):
         """Check the arrays.
@@ -106,10 +136,10 @@ class HandGrasps:
         if len(palm) not in (3, 7):
             raise InputError(f"palm must have 3 or 7 numbers, found {len(palm)}")
         turn = _poses.unit("palm", palm[3:]) if len(palm) == 7 else np.array([1., 0, 0, 0])
-        positions = self.positions + _poses.matrices(self.quaternions) @ palm[:3]
-        return replace(self, positions=positions,
-                       quaternions=_poses.product(self.quaternions,
-                                            np.broadcast_to(turn, self.quaternions.shape)))
+        own = HandConfigurations(self.positions, self.quaternions, self.joints).moved(palm[:3], turn)
+        return replace(self, positions=own.positions, quaternions=own.quaternions,
+                       pregrasp=self.pregrasp and self.pregrasp.moved(palm[:3], turn),
+                       target=self.target and self.target.moved(palm[:3], turn))
 
     def in_order_of(self, hand: Hand) -> np.ndarray:
         """Return joint angles (N, J) in the order of `hand.joint_names`.

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _arguments, _poses, _regrasp
 from ._arguments import mapping, member, shown, vector
-from ._hand_grasps import HandGrasps
+from ._hand_grasps import HandConfigurations, HandGrasps
 from ._regrasp import InputError
 
 
@@ -49,10 +49,22 @@ def read_isaac_grasp(path: str | os.PathLike) -> HandGrasps:
                               len(joint_names)) if angles else np.zeros(0))
         confidence.append(vector(f"{where}: confidence", [grasp.get("confidence", 1)], 1)[0])
         lost |= set(grasp) - {"position", "orientation", "cspace_position", "confidence"}
-    return HandGrasps(np.array(positions).reshape(-1, 3), np.array(quaternions).reshape(-1, 4),
-                      [str(joint) for joint in joint_names or []],
+    positions, quaternions = np.array(positions).reshape(-1, 3), np.array(quaternions).reshape(-1, 4)
+    before = _pregrasp_joints(grasps, joint_names or [])
+    return HandGrasps(positions, quaternions, [str(joint) for joint in joint_names or []],
                       np.array(joints).reshape(len(grasps), -1) if grasps else np.zeros((0, 0)),
-                      [str(key) for key in grasps], np.array(confidence), sorted(map(str, lost)))
+                      [str(key) for key in grasps], np.array(confidence), sorted(map(str, lost)), scored=True,
+                      pregrasp=None if before is None else HandConfigurations(positions, quaternions, before),
+                      set_name="isaac_grasp")
+
+
+def _pregrasp_joints(grasps: dict, names: list) -> np.ndarray | None:
+    """Return the joints (N, J) before the grasps; None unless each grasp has all of them."""
+    rows = [grasp.get("pregrasp_cspace_position") for grasp in grasps.values()]
+    if not rows or not all(isinstance(row, dict) and set(row) == set(names) for row in rows):
+        return None
+    return _arguments.numbers("pregrasp_cspace_position", [[row[name] for name in names] for row in rows],
+                              "(N, J)", (2,))
 
 
 def write_isaac_grasp(path: str | os.PathLike, grasps: HandGrasps, *, object_frame: str = "object",

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from . import _arguments, _dict_file, _misread, _npz, formats
+from ._hand_grasp_lines import not_written
 from ._hand_grasps import WorldPoses
 from ._help_as import help_as
 from ._regrasp import InputError, version
@@ -18,8 +19,8 @@ from .objects import Object
 
 _EPILOG = """Input, by file ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
 (.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
-trajectories of validate (.npz, to .mcap). Output: isaac_grasp 1.0 (.yaml), contacts for validate --grasps
-(.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
+trajectories of validate (.npz, to .mcap). Output: hand grasps for evaluate
+(.jsonl), isaac_grasp 1.0 (.yaml), contacts for validate --grasps (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -50,15 +51,16 @@ def parser() -> argparse.ArgumentParser:
         prog="regrasp-convert", description="Convert grasps and plans between formats, and report what "
         "the output format cannot represent.", epilog=_EPILOG)
     parser.add_argument("inputs", nargs="+", metavar="INPUT", help="files of one format, a single one for "
-                        ".csv and .mcap")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="output file, .yaml, .npz, .json "
-                        "or .mcap")
+                        ".csv and .mcap; folders for .jsonl")
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="output file, .jsonl, .yaml, .npz, "
+                        ".json or .mcap")
     parser.add_argument("--hand", metavar="FILE", help="hand file. Required for .json and .npz; adds fingertips "
                         "to .mcap")
     parser.add_argument("--palm", metavar="X,Y,Z[,QW,QX,QY,QZ]", help="pose of the palm frame in the body whose "
                         "poses the files contain. Metres and unit quaternion; --palm=-1,2,3 if it starts with a "
                         "minus [default: identity]")
-    parser.add_argument("--object", metavar="FILE", help="object file. Required for .npz and from .csv")
+    parser.add_argument("--object", metavar="FILE", help="object file. Required for .npz and from "
+                        ".csv; names the object in .jsonl")
     parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the world of a "
                         "dictionary (.npy, .npz). Replaces the pose in the file")
     parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="metres per length unit of the "
@@ -305,12 +307,52 @@ def _write_isaac_grasp(options, grasps: formats.HandGrasps, hand: Hand | None) -
     return grasps.lost
 
 
+def _grasp_files(inputs: list[str]) -> list[tuple[str, str]]:
+    """Return the input files, each with the prefix of the names of its grasps.
+
+    Folders are searched for files of grasps, with subfolders. The prefix is the path in the folder.
+    """
+    files = []
+    for path in inputs:
+        if not os.path.isdir(path):
+            files.append((path, ""))
+            continue
+        below = sorted(os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names
+                       if _ending(name) in (".npy", ".npz", ".yaml", ".yml", ".xml"))
+        if not below:
+            raise InputError(f"{path}: no grasps found, expected .npy, .npz, .yaml or .xml files")
+        for file in below:
+            folder = os.path.dirname(os.path.relpath(file, path))
+            files.append((file, folder.replace(os.sep, "/") + "/" if folder else ""))
+    return files
+
+
+def _write_hand_grasps(options) -> list[str]:
+    hand = Hand.read(options.hand) if options.hand else None
+    lost: set[str] = set()
+
+    def parts():
+        for path, prefix in _grasp_files(options.inputs):
+            grasps = _at_palm(options, _read(path, hand, options))
+            lost.update(not_written(grasps))
+            if not grasps.joint_names and hand is not None:
+                grasps = replace(_fitting(path, grasps, hand), joint_names=hand.joint_names)
+            yield prefix, grasps
+
+    scale = None if options.scale is None else _arguments.number("--scale", options.scale, 0)
+    formats.write_hand_grasps(options.output, parts(), scale=scale,
+                              object_file=os.path.basename(options.object) if options.object else None)
+    return sorted(lost)
+
+
 def _run(options) -> list[str]:
     """Convert the inputs, and return descriptions of the content that is not converted."""
     ending = _ending(options.output)
-    if ending not in (".yaml", ".yml", ".npz", ".json", ".mcap"):
-        raise InputError(f"--output {options.output} must be .yaml, .npz, .json or .mcap")
+    if ending not in (".jsonl", ".yaml", ".yml", ".npz", ".json", ".mcap"):
+        raise InputError(f"--output {options.output} must be .jsonl, .yaml, .npz, .json or .mcap")
     _check_output(options)
+    if ending == ".jsonl":
+        return _write_hand_grasps(options)
     if _ending(options.inputs[0]) == ".csv":
         return _convert_fingers(options)
     hand = Hand.read(options.hand) if options.hand else None

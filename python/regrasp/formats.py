@@ -4,7 +4,8 @@ from ._dexgraspbench import read_bodex, read_dexgraspbench
 from ._dexgraspnet import read_dexgraspnet
 from ._finger_grasps import FingerGrasps
 from ._graspit import read_graspit
-from ._hand_grasps import HandGrasps, of_plan
+from ._hand_grasp_lines import write_hand_grasps
+from ._hand_grasps import HandConfigurations, HandGrasps, of_plan
 from ._hand_motion import HandMotion, motion_of_plan, read_trajectory
 from ._hidex import read_hidex
 from ._isaac_grasp import read_isaac_grasp, write_isaac_grasp
@@ -12,6 +13,7 @@ from ._ros2 import write_mcap
 
 __all__ = [
     "FingerGrasps",
+    "HandConfigurations",
     "HandGrasps",
     "HandMotion",
     "motion_of_plan",
@@ -23,6 +25,7 @@ __all__ = [
     "read_hidex",
     "read_isaac_grasp",
     "read_trajectory",
+    "write_hand_grasps",
     "write_isaac_grasp",
     "write_mcap",
 ]

@@ -153,8 +153,8 @@ void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
   }
 }
 
-/// Write inertias, and remove compiler settings that derive or scale masses. They would change the
-/// object, too.
+}  // namespace
+
 void FixMasses(const mjModel& model, XmlElement& root) {
   int last = 0;
   for (XmlElement& section : root.children) {
@@ -166,8 +166,6 @@ void FixMasses(const mjModel& model, XmlElement& root) {
     }
   }
 }
-
-}  // namespace
 
 kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
                                     const object::Polyhedron& solid, double scale, double mass) {

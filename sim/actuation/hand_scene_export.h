@@ -23,6 +23,11 @@ inline constexpr const char* kHandSceneObject = "regrasp_object";
                                                   const object::Polyhedron& solid, double scale,
                                                   double mass);
 
+/// Write the compiled inertia of every body, and remove compiler settings that derive or scale
+/// masses. They would change an object that is added to the model.
+/// @param model  model of the text, with its bodies in the same order.
+void FixMasses(const mjModel_& model, kinematics::XmlElement& root);
+
 /// A static grasp of a replay as a keyframe of a scene.
 struct SceneKey {
   std::string name;

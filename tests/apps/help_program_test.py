@@ -9,7 +9,7 @@ import subprocess
 import program_case
 from program_case import ProgramCase
 
-PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
+PROGRAMS = ("plan", "validate", "graph", "figure", "repair", "merge", "evaluate", "hand")
 
 # Longest summary of an option in a shell with 100 columns, and longest line of -h.
 SUMMARY_LENGTH = 72
@@ -17,7 +17,7 @@ SHORT_LINE = 120
 
 
 # Most options that `validate --help` lists, and that all programs have together.
-MOST_OF_VALIDATE, MOST_OF_ALL = 47, 136
+MOST_OF_VALIDATE, MOST_OF_ALL = 47, 147
 
 
 # An option in a list of a page.

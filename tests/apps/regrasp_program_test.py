@@ -9,7 +9,7 @@ import time
 import program_case
 from program_case import ProgramCase
 
-COMMANDS = ("plan", "validate", "graph", "figure", "repair", "merge", "hand")
+COMMANDS = ("plan", "validate", "graph", "figure", "repair", "merge", "evaluate", "hand")
 
 
 class Regrasp(ProgramCase):

@@ -1,0 +1,190 @@
+#include "sim/hand_grasps/whole_hand.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "planner/base/error.h"
+#include "planner/base/file.h"
+#include "planner/base/json.h"
+#include "planner/base/number.h"
+#include "planner/kinematics/derive_couplings.h"
+#include "planner/kinematics/fit_tip.h"
+#include "planner/kinematics/hand_model.h"
+#include "planner/plan/json_reader.h"
+#include "sim/actuation/hand_scene_export.h"
+
+namespace regrasp::sim {
+namespace {
+
+using kinematics::XmlElement;
+
+constexpr char kHandFormat[] = "regrasp-hand";
+/// Mass and inertia of the body that contains the hand, kg and kg m². They are small against those
+/// of a hand.
+constexpr char kFrameMass[] = "0.01";
+constexpr char kFrameInertia[] = "1e-05 1e-05 1e-05";
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+XmlElement HandElement(std::string name, Attributes attributes,
+                       std::vector<XmlElement> children = {}) {
+  XmlElement element;
+  element.name = std::move(name);
+  element.attributes = std::move(attributes);
+  element.children = std::move(children);
+  return element;
+}
+
+/// Return the names of the joints that an actuator can move.
+std::vector<std::string> ScalarJoints(const mjModel& model) {
+  std::vector<std::string> names;
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const int type = model.jnt_type[joint];
+    if (type == mjJNT_HINGE || type == mjJNT_SLIDE) {
+      names.push_back(kinematics::JointName(model, joint));
+    }
+  }
+  return names;
+}
+
+/// Return a URDF model as MJCF with couplings and actuators, which MuJoCo ignores.
+kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compiled) {
+  const kinematics::ModelText& urdf = compiled.text;
+  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
+  std::set<std::string> following;
+  std::vector<XmlElement> couplings;
+  std::vector<XmlElement> motors;
+  for (const kinematics::Mimic& mimic : urdf.mimics) {
+    following.insert(mimic.joint);
+    couplings.push_back(HandElement(
+        "joint", {{"joint1", mimic.joint},
+                  {"joint2", mimic.follows},
+                  {"polycoef",
+                   FormatDouble(mimic.offset) + " " + FormatDouble(mimic.multiplier) + " 0 0 0"}}));
+  }
+  for (const std::string& joint : ScalarJoints(*compiled.model)) {
+    if (following.contains(joint)) continue;
+    XmlElement& motor = motors.emplace_back(HandElement("motor", {{"joint", joint}}));
+    const auto found = urdf.efforts.find(joint);
+    if (found == urdf.efforts.end()) continue;
+    motor.Set("forcelimited", "true");
+    motor.Set("forcerange", FormatDouble(-found->second) + " " + FormatDouble(found->second));
+  }
+  text.root.children.push_back(HandElement("actuator", {}, std::move(motors)));
+  if (!couplings.empty()) {
+    text.root.children.push_back(HandElement("equality", {}, std::move(couplings)));
+  }
+  return text;
+}
+
+bool IsFreeJoint(const XmlElement& element) {
+  const std::string* type = element.Find("type");
+  return element.name == "freejoint" ||
+         (element.name == "joint" && type != nullptr && *type == "free");
+}
+
+/// Return whether an element of the world moves with the hand. Lights, cameras and floors do not.
+bool IsOfHand(const XmlElement& element) {
+  if (element.name == "light" || element.name == "camera") return false;
+  const std::string* type = element.Find("type");
+  return element.name != "geom" || type == nullptr || (*type != "plane" && *type != "hfield");
+}
+
+/// Remove free joints, and name the bodies that have no name.
+void PrepareBodies(XmlElement& element, int& bodies) {
+  std::erase_if(element.children, IsFreeJoint);
+  for (XmlElement& child : element.children) {
+    if (child.name != "body") continue;
+    const int number = ++bodies;
+    if (child.Find("name") == nullptr) child.Set("name", "body " + std::to_string(number));
+    PrepareBodies(child, bodies);
+  }
+}
+
+/// Put everything in the world into one free body, and weld the palm to the mount.
+void WrapHand(const std::string& palm, XmlElement& root) {
+  XmlElement frame = HandElement(
+      "body", {{"name", kWholeHandBody}},
+      {HandElement("freejoint", {}),
+       HandElement("inertial",
+                   {{"pos", "0 0 0"}, {"mass", kFrameMass}, {"diaginertia", kFrameInertia}})});
+  int bodies = 0;
+  for (XmlElement& section : root.children) {
+    if (section.name != "worldbody") continue;
+    PrepareBodies(section, bodies);
+    for (XmlElement& child : section.children) {
+      if (IsOfHand(child)) frame.children.push_back(std::move(child));
+    }
+  }
+  std::erase_if(root.children, [](const XmlElement& section) {
+    return section.name == "worldbody" || section.name == "keyframe" || section.name == "size" ||
+           section.name == "sensor";
+  });
+  root.children.push_back(HandElement("size", {{"njmax", "3000"}, {"nconmax", "600"}}));
+  root.children.push_back(HandElement(
+      "worldbody", {},
+      {HandElement("body", {{"name", kWholeHandMount}, {"mocap", "true"}}), std::move(frame)}));
+  root.children.push_back(HandElement(
+      "equality", {},
+      {HandElement("weld",
+                   {{"body1", kWholeHandMount}, {"body2", palm}, {"relpose", "0 0 0 1 0 0 0"}})}));
+}
+
+/// Return the digest of the hand file, the model's files and the meshes, as that of a hand.
+std::string HandDigest(const std::string& description, const kinematics::ModelText& model) {
+  std::string digests = Sha256(description);
+  for (const auto& file : model.files) digests += Sha256(ReadFile(file));
+  for (const kinematics::MeshFile& mesh : model.meshes) digests += Sha256(ReadFile(mesh.path));
+  return Sha256(digests);
+}
+
+/// Return the distance of the farthest point of the collision geometry from the palm's origin.
+double LengthOf(const mjModel& model, int palm) {
+  const kinematics::DataPtr rest = kinematics::AtRest(model);
+  const Eigen::Vector3d origin = kinematics::VectorAt(rest->xpos, palm);
+  double length = 0;
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    if (!kinematics::Collides(model, geom)) continue;
+    const Eigen::Isometry3d pose = kinematics::PoseAt(rest->geom_xpos, rest->geom_xmat, geom);
+    const collision::ConvexShape shape = kinematics::ShapeOfGeom(model, geom);
+    for (const Eigen::Vector3d& point : shape.points) {
+      length = std::max(length, (pose * point - origin).norm() + shape.radius);
+    }
+  }
+  return length;
+}
+
+}  // namespace
+
+WholeHand ReadWholeHand(const std::filesystem::path& path) {
+  const std::string file = ReadFile(path);
+  const Json value = ParseJson(file, path.string());
+  const plan::JsonReader json(value, path.string());
+  json.ExpectFormat(kHandFormat);
+  WholeHand hand;
+  hand.name = json.Member("name").String();
+  hand.palm = json.Member("palm").String();
+  hand.model_file = path.parent_path() / json.Member("model").String();
+  hand.compiled =
+      std::make_shared<const kinematics::CompiledModel>(kinematics::CompileModel(hand.model_file));
+  kinematics::CheckPhysics(*hand.compiled);
+  const mjModel& model = *hand.compiled->model;
+  const int palm = mj_name2id(&model, mjOBJ_BODY, hand.palm.c_str());
+  if (palm <= 0) json.Member("palm").Fail("body \"" + hand.palm + "\" not found in the model");
+  hand.length = LengthOf(model, palm);
+  if (hand.length == 0) {
+    throw InputError(hand.model_file.string() + ": no geom collides, expected collision geometry");
+  }
+  hand.sha256 = HandDigest(file, hand.compiled->text);
+  hand.text = hand.compiled->text;
+  if (hand.text.root.name == "robot") hand.text = UrdfWithActuators(*hand.compiled);
+  FixMasses(model, hand.text.root);
+  WrapHand(hand.palm, hand.text.root);
+  return hand;
+}
+
+}  // namespace regrasp::sim
