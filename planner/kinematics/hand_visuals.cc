@@ -199,11 +199,7 @@ Isometry3d LinkPose(const LinkVisual& link, const HandModel& hand,
                     const std::vector<std::vector<double>>& joints) {
   if (link.after == 0) return Isometry3d::Identity();
   const Finger& finger = hand.fingers[link.finger];
-  JointConfiguration configuration(finger.drives);
-  for (std::size_t i = 0; i < finger.joints.size(); ++i) {
-    configuration[finger.joints[i].drive] = joints[link.finger][i] / finger.joints[i].ratio;
-  }
-  return FramesOf(finger, configuration)[link.after - 1];
+  return FramesOf(finger, ConfigurationAt(finger, joints[link.finger]))[link.after - 1];
 }
 
 }  // namespace regrasp::kinematics
