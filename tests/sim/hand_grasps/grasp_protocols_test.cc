@@ -53,7 +53,8 @@ object::Polyhedron Box() {
       for (const double z : {-kHalf, kHalf}) soup.vertices.emplace_back(x, y, z);
     }
   }
-  soup.facets = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+  soup.facets = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
   return object::Polyhedron::FromSoup(soup, "box");
 }
 
