@@ -77,6 +77,7 @@ struct PreparedGrasps {
   SharedObject object;
   std::unique_ptr<sim::GraspWorld> world;
   std::unique_ptr<sim::GraspGeometry> geometry;
+  std::string why;  ///< reason why the world could not be made; made only once, because it is slow
 };
 
 Json ResultJson(const sim::ProtocolResult& result) {
@@ -230,7 +231,7 @@ class EvaluateLines {
     for (auto at = worlds_.begin(); at != worlds_.end(); ++at) {
       if (at->object_path != path || at->scale != grasp.scale) continue;
       worlds_.splice(worlds_.begin(), worlds_, at);
-      return worlds_.front();
+      return ValidWorld();
     }
     PreparedGrasps made;
     made.object_path = path;
@@ -243,10 +244,20 @@ class EvaluateLines {
     const auto* solid = dynamic_cast<const object::Polyhedron*>(made.object->object.get());
     if (solid == nullptr) throw InputError(path + ": expected a solid, found a polygon");
     sim::CheckGraspScale(grasp, hand_, *solid, line.name);
-    made.world = std::make_unique<sim::GraspWorld>(hand_, *solid, grasp.scale, ReadPieces(path));
-    made.geometry = std::make_unique<sim::GraspGeometry>(*made.world, *solid, grasp.scale);
+    try {
+      made.world = std::make_unique<sim::GraspWorld>(hand_, *solid, grasp.scale, ReadPieces(path));
+      made.geometry = std::make_unique<sim::GraspGeometry>(*made.world, *solid, grasp.scale);
+    } catch (const InputError& error) {
+      made.why = error.what();
+    }
     if (worlds_.size() >= kMostWorlds) worlds_.pop_back();
     worlds_.push_front(std::move(made));
+    return ValidWorld();
+  }
+
+  /// Return the first world. @throws InputError  if it could not be made.
+  PreparedGrasps& ValidWorld() {
+    if (!worlds_.front().why.empty()) throw InputError(worlds_.front().why);
     return worlds_.front();
   }
 

@@ -6,6 +6,7 @@ set(regrasp_slow_tests
   apps.batch
   apps.corpus
   apps.endurance
+  apps.evaluate
   apps.failing_frames
   apps.frames
   apps.gait

@@ -74,7 +74,8 @@ XmlElement GeomElement(const std::string& mesh) {
 /// centroid.
 GraspWorld::Pieces HullsOf(const object::Polyhedron& solid, double scale,
                            const GraspWorld::Pieces& pieces) {
-  GraspWorld::Pieces hulls = IsConvex(solid) ? GraspWorld::Pieces{solid.vertices()} : pieces;
+  GraspWorld::Pieces hulls = pieces;
+  if (hulls.empty() && IsConvex(solid)) hulls.push_back(solid.vertices());
   for (std::vector<Vector3d>& hull : hulls) {
     for (Vector3d& point : hull) point = scale * (point - solid.mass_properties().centroid);
   }

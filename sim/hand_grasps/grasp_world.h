@@ -30,8 +30,8 @@ struct GraspPhysics {
 ///
 /// All collision geometry of the hand touches the object and, as in its model, itself. The palm
 /// follows the mount by a weld, as in DexGraspBench. There is no gravity; loads on the object
-/// replace it. A convex object is one mesh. Any other object is its convex pieces if they are
-/// given, otherwise its surface shell (surface_shell.h), which takes more time.
+/// replace it. The object is its convex pieces if they are given. Otherwise a convex object is one
+/// mesh, and any other object is its surface shell (surface_shell.h), which takes more time.
 ///
 /// Actuators of the model are position servos, or become such servos. Contact stiffness, time step,
 /// integrator and friction cones are those of DexGraspBench (docs/evaluate_grasps.md).

@@ -124,7 +124,7 @@ void WrapHand(const std::string& palm, XmlElement& root) {
     return section.name == "worldbody" || section.name == "keyframe" || section.name == "size" ||
            section.name == "sensor";
   });
-  root.children.push_back(HandElement("size", {{"njmax", "3000"}, {"nconmax", "600"}}));
+  root.children.push_back(HandElement("size", {{"njmax", "1200"}, {"nconmax", "250"}}));
   root.children.push_back(HandElement(
       "worldbody", {},
       {HandElement("body", {{"name", kWholeHandMount}, {"mocap", "true"}}), std::move(frame)}));

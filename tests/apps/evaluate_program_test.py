@@ -159,6 +159,17 @@ class Evaluate(ProgramCase):
         self.assert_refused(2, 'found "drop"', *self.arguments(protocol="drop"))
         self.assert_refused(2, "--output", *self.arguments(output="grasps.jsonl"))
 
+    def test_pieces_of_an_object_are_inputs(self):
+        self.write("grasps.jsonl", hand_grasp_files.lines([grasp("a"), grasp("b")]))
+        os.makedirs(self.path("objects/box_pieces"))
+        self.write("objects/box_pieces/0.obj", hand_grasp_files.box())
+        self.assertNotIn("kept", self.assert_done(*self.arguments(protocol="fall")).stderr)
+        self.assertIn("2 kept", self.assert_done(*self.arguments(protocol="fall")).stderr)
+        self.write("objects/box_pieces/0.obj", "no mesh")
+        done = self.run_program(*self.arguments(protocol="fall"), "-q")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("box_pieces/0.obj"), 2, done.stderr)
+
     def test_a_killed_run_continues_with_the_same_bytes(self):
         grasps = [grasp(f"g{i}", 0.025 if i % 3 else 0.0) for i in range(12)]
         self.write("grasps.jsonl", hand_grasp_files.lines(grasps))

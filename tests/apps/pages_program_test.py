@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 
+import hand_grasp_files
 import program_case
 from program_case import ProgramCase
 
@@ -34,6 +35,7 @@ COMMANDS = {
     "command_figure": ["figures/sheet.pdf"],
     "command_repair": ["solid.obj", "repair.json"],
     "command_merge": ["plans.jsonl", "reports.jsonl"],
+    "command_evaluate": ["reports.jsonl"],
     "command_hand": ["hand.json", "hand.png"],
 }
 
@@ -78,6 +80,7 @@ LEFT = {
     **COMMANDS,
     "analytic_check": ["out/plan/report.json"],
     "diagnose_a_failure": ["out/cube.start/report.html"],
+    "evaluate_grasps": ["reports.jsonl"],
     "export_hand_plan": ["turn.npz", "scene/scene.xml"],
     "conditions": ["out/turn/report.html"],
     "hand_engines": ["out/turn/report.html"],
@@ -161,6 +164,13 @@ class Pages(ProgramCase):
         self.write("hidex.csv", f"{pinch}, 0, .03, 0, 0, -1, 0, {away}, {pose}\n"
                    f"{pinch}, {away}, 0, -.03, 0, 0, 1, 0, {pose}\n")
 
+    def write_hand_grasps(self):
+        """Write a hand, an object and a grasp that holds it."""
+        hand_grasp_files.write_hand(self.folder)
+        os.rename(self.path("gripper.json"), self.path("hand.json"))
+        self.write("grasps.jsonl", hand_grasp_files.lines([
+            hand_grasp_files.grasp("hold", target=hand_grasp_files.TARGET, claimed=True)]))
+
     def test_every_command_runs_and_leaves_what_the_page_says(self):
         found = pages()
         self.assertEqual(sorted(found), sorted(LEFT), "a page that has commands is to say what it leaves")
@@ -172,6 +182,8 @@ class Pages(ProgramCase):
                 os.symlink(self.model(""), self.path("models"))
                 self.write_objects()
                 self.write_hidex()
+                if name in ("command_evaluate", "evaluate_grasps"):
+                    self.write_hand_grasps()
                 for block in [GIVEN.get(name, ""), *commands_of(text)]:
                     for long, short in SHORTER:
                         block = block.replace(long, short)

@@ -1,0 +1,162 @@
+#include "sim/hand_grasps/grasp_protocols.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "planner/base/error.h"
+#include "sim/hand_grasps/grasp_conventions.h"
+
+namespace regrasp::sim {
+namespace grasp_protocols_test {
+
+using testing::HasSubstr;
+
+constexpr char kGripper[] = R"(<mujoco>
+  <compiler angle="radian" autolimits="true"/>
+  <default>
+    <joint type="slide" range="0 0.05" damping="20" armature="0.1"/>
+    <position kp="500" ctrlrange="0 0.05" forcerange="-10 10"/>
+  </default>
+  <worldbody>
+    <body name="palm">
+      <geom type="box" size="0.06 0.02 0.01" pos="0 0 -0.01"/>
+      <body name="left" pos="-0.05 0 0.05">
+        <joint name="left" axis="1 0 0"/>
+        <geom type="box" size="0.005 0.01 0.01"/>
+      </body>
+      <body name="right" pos="0.05 0 0.05">
+        <joint name="right" axis="-1 0 0"/>
+        <geom type="box" size="0.005 0.01 0.01"/>
+      </body>
+    </body>
+  </worldbody>
+  <equality><joint joint1="right" joint2="left" polycoef="0 1 0 0 0"/></equality>
+  <actuator><position joint="left"/></actuator>
+</mujoco>)";
+
+constexpr char kHand[] = R"({"format": "regrasp-hand", "version": 1, "name": "gripper",
+                             "model": "gripper.xml", "palm": "palm"})";
+
+/// Half of the edge of the box, metres. The coupled fingers touch it at 0.025.
+constexpr double kHalf = 0.02;
+constexpr double kTouch = 0.025;
+
+object::Polyhedron Box() {
+  object::PolygonSoup soup;
+  for (const double x : {-kHalf, kHalf}) {
+    for (const double y : {-kHalf, kHalf}) {
+      for (const double z : {-kHalf, kHalf}) soup.vertices.emplace_back(x, y, z);
+    }
+  }
+  soup.facets = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+  return object::Polyhedron::FromSoup(soup, "box");
+}
+
+HandGrasp GraspAt(double position) {
+  HandGrasp grasp;
+  grasp.id = "grasp";
+  grasp.object_file = "box.obj";
+  grasp.grasp.palm.translation() = Eigen::Vector3d(0, 0, -0.05);
+  grasp.grasp.joints = {{"left", position}};
+  return grasp;
+}
+
+class GraspProtocolsTest : public testing::Test {
+ protected:
+  static WholeHand ReadGripper() {
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) /
+        testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "gripper.xml") << kGripper;
+    std::ofstream(folder / "gripper.json") << kHand;
+    return ReadWholeHand(folder / "gripper.json");
+  }
+  GraspVerdict Test(const HandGrasp& grasp, const GraspTest& test = {}) {
+    return TestHandGrasp(grasp, box_, geometry_, {GraspProtocol::kAnalytic, GraspProtocol::kFall},
+                         test, world_);
+  }
+
+  WholeHand hand_ = ReadGripper();
+  object::Polyhedron box_ = Box();
+  GraspWorld world_{hand_, box_, 1};
+  GraspGeometry geometry_{world_, box_, 1};
+};
+
+TEST_F(GraspProtocolsTest, JointsOfAConstraintFollow) {
+  const GraspVerdict verdict = Test(GraspAt(kTouch));
+  EXPECT_EQ(verdict.fault(), GraspFault::kNone);
+  for (const LinkTouch& touch : verdict.touches) {
+    EXPECT_EQ(touch.contacts.size(), touch.name == "palm" ? 0U : 4U) << touch.name;
+    for (const collision::SurfaceContact& contact : touch.contacts) {
+      EXPECT_NEAR(std::abs(contact.point.x()), kHalf, 1e-9);
+      EXPECT_NEAR(contact.outward.x(), contact.point.x() / kHalf, 1e-9);
+    }
+  }
+}
+
+TEST_F(GraspProtocolsTest, DistancesAreSigned) {
+  for (const double gap : {0.02, 0.003, -0.001, -0.005}) {
+    EXPECT_NEAR(Test(GraspAt(kTouch - gap)).distance_m, gap, 6e-5);
+  }
+  EXPECT_EQ(Test(GraspAt(kTouch + 0.005)).fault(), GraspFault::kPenetrates);
+  EXPECT_EQ(Test(GraspAt(0)).fault(), GraspFault::kNoContact);
+  EXPECT_EQ(Test(GraspAt(-0.01)).fault(), GraspFault::kJointsOutOfRange);
+}
+
+TEST_F(GraspProtocolsTest, AVerdictDependsOnNoEarlierGrasp) {
+  const GraspVerdict first = Test(GraspAt(kTouch), {.mu = 0.1});
+  Test(GraspAt(kTouch + 0.004), {.mu = 0.9, .mass_kg = 3});
+  const GraspVerdict again = Test(GraspAt(kTouch), {.mu = 0.1});
+  EXPECT_EQ(again.results.back().seconds, first.results.back().seconds);
+  EXPECT_EQ(again.distance_m, first.distance_m);
+}
+
+TEST_F(GraspProtocolsTest, FrictionHoldsTheObject) {
+  EXPECT_EQ(Test(GraspAt(kTouch), {.mu = 0.6}).results.back().fault, GraspFault::kNone);
+  EXPECT_EQ(Test(GraspAt(kTouch), {.mu = 0.01}).results.back().fault, GraspFault::kDropped);
+}
+
+TEST_F(GraspProtocolsTest, PiecesHoldLikeTheirObject) {
+  // The same box in two halves: MuJoCo has two hulls.
+  GraspWorld::Pieces halves(2);
+  for (const Eigen::Vector3d& vertex : box_.vertices()) {
+    for (const int half : {0, 1}) {
+      Eigen::Vector3d point = vertex;
+      if ((point.y() > 0) == (half == 0)) point.y() = 0;
+      halves[half].push_back(point);
+    }
+  }
+  GraspWorld world(hand_, box_, 1, halves);
+  const GraspVerdict verdict = TestHandGrasp(GraspAt(kTouch), box_, GraspGeometry(world, box_, 1),
+                                             {GraspProtocol::kFall}, {}, world);
+  EXPECT_EQ(verdict.fault(), GraspFault::kNone);
+}
+
+TEST_F(GraspProtocolsTest, UnknownAndMissingJointsAreNamed) {
+  HandGrasp grasp = GraspAt(kTouch);
+  grasp.grasp.joints["thumb"] = 0;
+  const auto message = [&] {
+    try {
+      CheckGraspConventions(grasp, hand_, box_, world_, "line 3");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), HasSubstr("line 3: joints: unknown joint \"thumb\""));
+  grasp.grasp.joints.clear();
+  EXPECT_THAT(message(), HasSubstr("joint \"left\" not found"));
+  // The right finger follows.
+  grasp.grasp.joints = {{"left", kTouch}};
+  EXPECT_EQ(message(), "");
+}
+
+}  // namespace grasp_protocols_test
+}  // namespace regrasp::sim
