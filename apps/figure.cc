@@ -197,7 +197,7 @@ bool IsOurs(const std::filesystem::path& file) {
 FigureFolder::FigureFolder(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
-  if (error) throw EnvironmentError(path_.string() + ": " + error.message());
+  if (error) throw EnvironmentError(path_.string() + ": cannot be created: " + error.message());
 }
 
 void FigureFolder::Write(const std::string& name, const std::string& bytes) {
@@ -214,10 +214,11 @@ void FigureFolder::RemoveOthers(const std::string& format) const {
     if (!file || written_.contains(name) || !IsFigureName(name, format)) continue;
     if (IsOurs(entry.path())) others.push_back(entry.path());
   }
+  if (error) throw EnvironmentError(path_.string() + ": cannot be read: " + error.message());
   for (const std::filesystem::path& other : others) {
-    if (!error) std::filesystem::remove(other, error);
+    std::filesystem::remove(other, error);
+    if (error) throw EnvironmentError(other.string() + ": cannot be removed: " + error.message());
   }
-  if (error) throw EnvironmentError(path_.string() + ": " + error.message());
 }
 
 void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {

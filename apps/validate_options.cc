@@ -494,7 +494,7 @@ void ValidateOptions::CheckReplay(const CLI::App& app) {
           "--noise joints"},
          "requires --replay hand");
   if (trajectory_is_npz()) {
-    throw InputError("--trajectory: " + trajectory + ": NPZ requires --replay hand");
+    throw InputError("--trajectory: " + trajectory + ": NPZ format requires --replay hand");
   }
 }
 

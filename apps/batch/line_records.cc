@@ -246,7 +246,9 @@ void LinesInput::Survey() {
       begin = end + 1;
     }
   }
-  if (stream_.bad()) throw InputError(path_.string() + ": cannot be read");
+  if (stream_.bad()) {
+    throw InputError(path_.string() + ": cannot be read: " + std::strerror(errno));
+  }
   ends_ = last == '\n';
   if (!ends_) ++lines_;
   source_ = sum.Finish();

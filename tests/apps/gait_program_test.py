@@ -294,7 +294,7 @@ class Gait(ProgramCase):
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json",
                                 "--trajectory", "points.npz", program="validate")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("NPZ requires --replay hand", done.stderr)
+        self.assertIn("NPZ format requires --replay hand", done.stderr)
         self.assertFalse(os.path.exists(self.path("points.npz")))
 
     def check_trials(self, plan, by_hand):

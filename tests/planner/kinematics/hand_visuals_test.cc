@@ -45,13 +45,13 @@ TEST(HandVisuals, LinkPoseHasTheAnglesOfCoupledJoints) {
   EXPECT_TRUE(first.linear().isApprox(turn, 1e-12));
   EXPECT_TRUE(second.translation().isApprox(turn * Vector3d(0, 0, 0.04), 1e-12));
   const double sum = angle + joints[0][1];
-  EXPECT_TRUE(second.linear().isApprox(
-      AngleAxisd(sum, Vector3d::UnitX()).toRotationMatrix(), 1e-12));
+  EXPECT_TRUE(
+      second.linear().isApprox(AngleAxisd(sum, Vector3d::UnitX()).toRotationMatrix(), 1e-12));
 }
 
 TEST(HandVisuals, ThePalmDoesNotMove) {
-  EXPECT_TRUE(LinkPose(LinkVisual(), CoupledFinger(), {{0.8, 0.7}}).isApprox(
-      Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(LinkPose(LinkVisual(), CoupledFinger(), {{0.8, 0.7}})
+                  .isApprox(Eigen::Isometry3d::Identity()));
 }
 
 }  // namespace hand_visuals_test
