@@ -143,18 +143,21 @@ class GraspTester {
   }
 
   /// Close the hand around the object, once for all directions and protocols.
-  /// @returns whether the hand then touches the object.
-  bool Close() {
-    if (!closed_) {
-      world_.Place(grasp_.pregrasp ? *grasp_.pregrasp : grasp_.grasp);
-      world_.SetForce(Vector3d::Zero());
-      if (grasp_.pregrasp) Move(*grasp_.pregrasp, grasp_.grasp);
-      Move(grasp_.grasp, target_);
-      closed_ = world_.Save();
-      is_touched_ = world_.IsTouched();
-      closed_object_ = world_.palm_pose().inverse() * world_.object_pose();
-    }
-    return is_touched_;
+  void Close() {
+    if (closed_) return;
+    world_.Place(grasp_.pregrasp ? *grasp_.pregrasp : grasp_.grasp);
+    world_.SetForce(Vector3d::Zero());
+    if (grasp_.pregrasp) Move(*grasp_.pregrasp, grasp_.grasp);
+    Move(grasp_.grasp, target_);
+    closed_ = world_.Save();
+    is_touched_ = world_.IsTouched();
+    closed_object_ = world_.palm_pose().inverse() * world_.object_pose();
+  }
+
+  /// Return the fault of a test that fails: kNoContact if the closed hand does not touch the
+  /// object.
+  [[nodiscard]] GraspFault FaultAfterClosing(GraspFault fault) const {
+    return is_touched_ ? fault : GraspFault::kNoContact;
   }
 
   void Load(const Vector3d& force) {
@@ -173,10 +176,7 @@ class GraspTester {
       result.fault = GraspFault::kPenetrates;
       return;
     }
-    if (!Close()) {
-      result.fault = GraspFault::kNoContact;
-      return;
-    }
+    Close();
     result.moved_m = result.rotated_deg = 0;
     for (int direction = 0; direction < kLoadDirections; ++direction) {
       Load(kBenchAcceleration * test_.mass_kg * LoadDirection(direction));
@@ -186,7 +186,7 @@ class GraspTester {
         result.moved_m = std::max(*result.moved_m, pose.translation().norm());
         result.rotated_deg = std::max(*result.rotated_deg, AngleDeg(Isometry3d::Identity(), pose));
         if (*result.moved_m < kBenchMotion && *result.rotated_deg < kBenchAngleDeg) continue;
-        result.fault = GraspFault::kObjectMoved;
+        result.fault = FaultAfterClosing(GraspFault::kObjectMoved);
         return;
       }
     }
@@ -196,10 +196,10 @@ class GraspTester {
   bool Begin(ProtocolResult& result) {
     if (verdict_.distance_m < -kMostGraspDepth) {
       result.fault = GraspFault::kPenetrates;
-    } else if (!Close()) {
-      result.fault = GraspFault::kNoContact;
+      return false;
     }
-    return result.passed();
+    Close();
+    return true;
   }
 
   /// Return the time until the object is dropped, at most kFallSeconds.
@@ -223,7 +223,7 @@ class GraspTester {
     for (int direction = 0; direction < kLoadDirections; ++direction) {
       result.seconds[direction] = HeldSeconds(direction);
       if (*result.seconds[direction] >= kFallSeconds) continue;
-      result.fault = GraspFault::kDropped;
+      result.fault = FaultAfterClosing(GraspFault::kDropped);
       return;
     }
   }
@@ -259,7 +259,7 @@ class GraspTester {
     for (int direction = 0; direction < kLoadDirections; ++direction) {
       result.resisted_N.push_back(LargestResisted(direction, required));
       if (result.resisted_N.back() >= required) continue;
-      result.fault = GraspFault::kForceNotResisted;
+      result.fault = FaultAfterClosing(GraspFault::kForceNotResisted);
       return;
     }
   }
