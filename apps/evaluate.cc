@@ -44,7 +44,7 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
       ->type_name("FILE")
       ->required();
   app.add_option("--object", options.object,
-                 "Folder with the object files that the grasps name, or the file of all grasps")
+                 "Folder of the object files, or the one object file of all grasps")
       ->type_name("FILE|FOLDER")
       ->required();
   BeginGroup(app, "Tests");

@@ -165,7 +165,7 @@ double HandScene::MotionBound(FingerIndex finger, const JointConfiguration& from
 }
 
 double HandScene::MotionBound(const Isometry3d& from, const Isometry3d& to) const {
-  const double turn = RotationInBody(from.linear(), to.linear()).angle();
+  const double turn = object::RotationInBody(from.linear(), to.linear()).angle();
   return (to.translation() - from.translation()).norm() + turn * object_reach_;
 }
 

@@ -42,7 +42,7 @@ constexpr double kBendPenalty = 0.002;      // metres per radian
 
 /// Return the rotation that maps the z axis to `up`.
 Eigen::Matrix3d Upright(const Vector3d& up) {
-  return AligningRotation(Vector3d::UnitZ(), up).toRotationMatrix();
+  return object::AligningRotation(Vector3d::UnitZ(), up).toRotationMatrix();
 }
 
 double ScoreOf(const HandSetup& setup, const PoseTrack& track) {

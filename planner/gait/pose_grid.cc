@@ -46,7 +46,7 @@ std::optional<plan::GoalSet> ObjectTask::GoalFrom(const Eigen::Isometry3d& start
 
 PoseTrack ObjectTask::To(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
                          int steps) const {
-  const Eigen::AngleAxisd turn = RotationInBody(start.linear(), end.linear());
+  const Eigen::AngleAxisd turn = object::RotationInBody(start.linear(), end.linear());
   const Eigen::Vector3d shift = end * centre_ - start * centre_;
   const bool stays = turn.angle() == 0 && shift.isZero(0);
   return {start, centre_, {turn.axis(), turn.angle()}, shift, stays ? 0 : steps};
@@ -125,7 +125,7 @@ const PoseGrid::Offsets& PoseGrid::OffsetsBeside(const PoseTrack& track) {
 
 PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, End end)
     : track_(track), end_(end), offsets_(&OffsetsBeside(track)) {
-  axes_ = AligningRotation(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+  axes_ = object::AligningRotation(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
 }
 
 PoseGrid::PoseGrid(const PoseTrack& track, const Eigen::Vector3d& up, const plan::GoalSet& goal)

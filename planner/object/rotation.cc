@@ -1,6 +1,6 @@
 #include "planner/object/rotation.h"
 
-namespace regrasp {
+namespace regrasp::object {
 
 // Eigen's templates for these three take seconds to compile in each file that uses them.
 
@@ -16,4 +16,4 @@ Eigen::Quaterniond AligningRotation(const Eigen::Vector3d& from, const Eigen::Ve
   return Eigen::Quaterniond::FromTwoVectors(from, to);
 }
 
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace regrasp {
+namespace regrasp::object {
 
 /// Return the rotation from the orientation `from` to `to`, expressed in the axes of `from`.
 /// It is from⁻¹ · to, with an angle in [0, π].
@@ -22,4 +22,4 @@ namespace regrasp {
 [[nodiscard]] Eigen::Quaterniond AligningRotation(const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to);
 
-}  // namespace regrasp
+}  // namespace regrasp::object

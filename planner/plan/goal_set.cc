@@ -19,7 +19,7 @@ double AngleBetween(const Vector3d& a, const Vector3d& b) {
 
 GoalDistance DistanceFrom(const PoseGoal& goal, const Isometry3d& pose) {
   const double length = (pose * goal.point - goal.pose * goal.point).norm();
-  const double angle = RotationInWorld(goal.pose.linear(), pose.linear()).angle();
+  const double angle = object::RotationInWorld(goal.pose.linear(), pose.linear()).angle();
   return {std::max(0.0, length - goal.tolerance.length),
           std::max(0.0, angle - goal.tolerance.angle)};
 }
@@ -35,7 +35,7 @@ Isometry3d NearestTo(const PoseGoal& goal, const Isometry3d& pose, const Vector3
   if (goal.tolerance.angle == 0) {
     nearest.linear() = goal.pose.linear();
   } else if (off.angle > 0) {
-    const Vector3d axis = RotationInWorld(pose.linear(), goal.pose.linear()).axis();
+    const Vector3d axis = object::RotationInWorld(pose.linear(), goal.pose.linear()).axis();
     nearest.linear() = Eigen::AngleAxisd(off.angle, axis).toRotationMatrix() * pose.linear();
   }
   const Vector3d wanted = goal.pose * goal.point;

@@ -110,7 +110,7 @@ bool AreIdentical(const FingerGrasp& a, const FingerGrasp& b) {
 HandState StateBetween(const HandState& from, const HandState& to, double share) {
   HandState state = from;
   state.pose.translation() += share * (to.pose.translation() - from.pose.translation());
-  const Eigen::AngleAxisd turn = RotationInBody(from.pose.linear(), to.pose.linear());
+  const Eigen::AngleAxisd turn = object::RotationInBody(from.pose.linear(), to.pose.linear());
   state.pose.linear() =
       from.pose.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
   for (std::size_t i = 0; i < from.joints.size(); ++i) {

@@ -233,7 +233,8 @@ class FaultSceneBuilder {
     if (!fault_.X_WO_before) return;
     const Isometry3d& now = scene_.snapshot.X_WO;
     const Vector3d back = *fault_.X_WO_before * Centroid() - scene_.marks.centroid;
-    const Eigen::AngleAxisd turn = RotationInWorld(now.linear(), fault_.X_WO_before->linear());
+    const Eigen::AngleAxisd turn =
+        object::RotationInWorld(now.linear(), fault_.X_WO_before->linear());
     const double motion = back.norm() / diameter_m() + std::abs(turn.angle()) / 2;
     if (!std::isfinite(motion) || motion > kFarFromCentroid) return;
     const bool of_hand = fault_.hand && fault_.hand->pose;

@@ -45,7 +45,7 @@ constexpr double kGhostGlyphOpacity = 0.33;
 /// `direction`.
 Eigen::Isometry3d PoseAlong(const Vector3d& apex, const Vector3d& direction) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = AligningRotation(Vector3d::UnitZ(), direction).toRotationMatrix();
+  pose.linear() = object::AligningRotation(Vector3d::UnitZ(), direction).toRotationMatrix();
   pose.translation() = apex;
   return pose;
 }

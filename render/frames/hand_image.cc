@@ -233,7 +233,7 @@ void AddArrow(const PalmArrow& arrow, const HandPlacement& place, HandImageScene
       {Capsule{from, tip - 0.9 * head_length * along, kArrowRadius}, arrow.color});
   Isometry3d head = Isometry3d::Identity();
   // The cone opens along its z axis from its apex.
-  head.linear() = AligningRotation(Vector3d::UnitZ(), -along).toRotationMatrix();
+  head.linear() = object::AligningRotation(Vector3d::UnitZ(), -along).toRotationMatrix();
   head.translation() = tip;
   scene.drawing.shapes.push_back(
       {MeshInstance{static_cast<int>(scene.meshes.size()), head}, arrow.color});

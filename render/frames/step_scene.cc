@@ -136,7 +136,7 @@ double Height(const ShadedMesh& surface, const Isometry3d& pose, const Vector3d&
 
 std::vector<Vector3d> RotationArrow(const ShadedMesh& surface, const Isometry3d& before,
                                     const Isometry3d& after, const Vector3d& to_eye) {
-  const AngleAxisd turn = RotationInWorld(before.linear(), after.linear());
+  const AngleAxisd turn = object::RotationInWorld(before.linear(), after.linear());
   if (turn.angle() < kLeastTurn) return {};
   // Seen from the end of the axis that is nearer to the eye, with a preference for the top.
   const bool turned_away = turn.axis().dot(to_eye + Vector3d::UnitZ() / 2) < 0;
@@ -167,7 +167,8 @@ void AddRotationArrow(const std::vector<Vector3d>& arrow, int arrow_head, Color 
     shapes.push_back({Line{*at, *(at + 1), kLineRadius}, color});
   }
   Isometry3d pose = Isometry3d::Identity();
-  pose.linear() = kHead * AligningRotation(Vector3d::UnitZ(), *base - tip).toRotationMatrix();
+  pose.linear() =
+      kHead * object::AligningRotation(Vector3d::UnitZ(), *base - tip).toRotationMatrix();
   pose.translation() = tip;
   shapes.push_back({MeshInstance{arrow_head, pose}, color});
 }

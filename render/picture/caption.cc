@@ -96,7 +96,7 @@ std::string Describe(const plan::Move& step) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
-  const double angle = RotationInBody(from.linear(), to.linear()).angle();
+  const double angle = object::RotationInBody(from.linear(), to.linear()).angle();
   if (angle >= kMinRotation) {
     return "move: rotate the object by " + FormatDegrees(Degrees(angle));
   }

@@ -44,7 +44,7 @@ void Move(const Isometry3d& motion, plan::FingerState& finger) {
 }
 
 Eigen::AngleAxisd TurnFrom(const HandState& a, const HandState& b) {
-  return RotationInBody(a.pose.linear(), b.pose.linear());
+  return object::RotationInBody(a.pose.linear(), b.pose.linear());
 }
 
 /// Return the length of the motion between two states, in frames.
@@ -140,7 +140,7 @@ HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& pla
   view_ = std::make_shared<const render::HandView>(std::move(view));
   // The initial pose of the object is that of frames without a hand.
   X_WP_.setIdentity();
-  X_WP_.linear() = AligningRotation(hand_.up, Vector3d::UnitZ()).toRotationMatrix();
+  X_WP_.linear() = object::AligningRotation(hand_.up, Vector3d::UnitZ()).toRotationMatrix();
   X_WP_.translation() = centroid_m - X_WP_.linear() * (states_.front().pose * centroid_m);
 }
 

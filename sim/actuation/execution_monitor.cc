@@ -119,7 +119,7 @@ void ExecutionMonitor::WatchObject(const Isometry3d& planned, double share, doub
   const Isometry3d pose = world_.object_pose();
   const Vector3d& centre = world_.centroid_O();
   const double off = (pose * centre - planned * centre).norm();
-  const double turned = RotationInBody(pose.linear(), planned.linear()).angle();
+  const double turned = object::RotationInBody(pose.linear(), planned.linear()).angle();
   off_m = std::max(off_m, off);
   off_rad = std::max(off_rad, turned);
   const double most_m = share * tolerance_.length_m;
@@ -139,7 +139,7 @@ void ExecutionMonitor::WatchObject(const Isometry3d& planned, double share, doub
 void ExecutionMonitor::WatchFrozen(const Isometry3d& start) {
   const Isometry3d pose = world_.object_pose();
   const Vector3d& centre = world_.centroid_O();
-  const double turned = RotationInBody(pose.linear(), start.linear()).angle();
+  const double turned = object::RotationInBody(pose.linear(), start.linear()).angle();
   measures_.frozen_off_m =
       std::max(measures_.frozen_off_m, (pose * centre - start * centre).norm());
   measures_.frozen_off_rad = std::max(measures_.frozen_off_rad, turned);

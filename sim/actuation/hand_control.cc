@@ -122,7 +122,7 @@ void HandControl::PlaceAnchor(FingerIndex finger, const Vector3d& centre_O) {
 void HandControl::Roll(FingerIndex finger) {
   Anchor& anchor = fingers_[finger].anchor;
   const Matrix3d turn = TipTurn(finger);
-  const Eigen::AngleAxisd change = RotationInWorld(anchor.turn_O, turn);
+  const Eigen::AngleAxisd change = object::RotationInWorld(anchor.turn_O, turn);
   const Vector3d outward = anchor.centre_O - anchor.point_O;
   anchor.turn_O = turn;
   if (!anchor.is_near) return;

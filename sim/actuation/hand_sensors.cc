@@ -47,7 +47,7 @@ void HandSensors::Update(const Isometry3d& planned) {
   const PoseDeviation noise = DrawDeviation(sensing_.pose_noise_m, sensing_.pose_noise_rad,
                                             sensing_.seed, static_cast<std::uint64_t>(taken_));
   const Vector3d& centre_O = world_.centroid_O();
-  const Eigen::AngleAxisd turn = RotationInWorld(pose.linear(), planned.linear());
+  const Eigen::AngleAxisd turn = object::RotationInWorld(pose.linear(), planned.linear());
   Arrival arrival;
   arrival.time = world_.time() + sensing_.pose_delay_s;
   arrival.deviation.shift_m = planned * centre_O - pose * centre_O + bias_.shift_m + noise.shift_m;

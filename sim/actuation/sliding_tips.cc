@@ -14,8 +14,9 @@ namespace {
 using plan::HandState;
 
 double TimeBetween(const HandState& a, const HandState& b, double joint_speed) {
-  double time = std::max((a.pose.translation() - b.pose.translation()).norm() / kObjectSpeed,
-                         RotationInBody(a.pose.linear(), b.pose.linear()).angle() / kObjectTurn);
+  double time =
+      std::max((a.pose.translation() - b.pose.translation()).norm() / kObjectSpeed,
+               object::RotationInBody(a.pose.linear(), b.pose.linear()).angle() / kObjectTurn);
   for (std::size_t f = 0; f < a.joints.size(); ++f) {
     for (std::size_t k = 0; k < a.joints[f].size(); ++k) {
       time = std::max(time, std::abs(a.joints[f][k] - b.joints[f][k]) / joint_speed);

@@ -63,7 +63,7 @@ struct NamedPath {
 
 bool IsSamePlace(const Isometry3d& a, const Isometry3d& b) {
   return (a.translation() - b.translation()).norm() <= kSamePlace &&
-         RotationInBody(a.linear(), b.linear()).angle() <= kSameTurn;
+         object::RotationInBody(a.linear(), b.linear()).angle() <= kSameTurn;
 }
 
 class Checker {
@@ -299,7 +299,8 @@ std::optional<Checker::Conflict> Checker::FindConflict(const Instant& from, cons
   }
   const double object_bound =
       (to.state.pose.translation() - from.state.pose.translation()).norm() +
-      RotationInBody(from.state.pose.linear(), to.state.pose.linear()).angle() * object_reach_;
+      object::RotationInBody(from.state.pose.linear(), to.state.pose.linear()).angle() *
+          object_reach_;
   const Instant middle = MiddleOf(from, to);
   if (auto fault = CheckTips(middle.holding, middle.state, kTipInMove, when)) return *fault;
   const std::optional<NearPair> near = FindNear(middle, bounds, object_bound, others);

@@ -33,7 +33,7 @@ std::string After(const std::string& when) { return when.empty() ? "" : ", " + w
 std::string MotionText(const Isometry3d& a, const Isometry3d& b) {
   constexpr double kNothing = 1e-12;
   const double length = (a.translation() - b.translation()).norm();
-  const double turn = RotationInBody(a.linear(), b.linear()).angle();
+  const double turn = object::RotationInBody(a.linear(), b.linear()).angle();
   if (turn <= kNothing) return FormatLength(length);
   if (length <= kNothing) return DegreesText(turn);
   return FormatLength(length) + " and " + DegreesText(turn);
@@ -197,7 +197,7 @@ std::optional<HandFinding> FindMissedGoal(const plan::Plan& plan, int entry,
   if (entry == 0 || entry != std::ssize(plan.steps)) return std::nullopt;
   const Isometry3d& goal = plan.hand->goal;
   const double length = (goal.translation() - state.pose.translation()).norm();
-  const double turn = RotationInBody(goal.linear(), state.pose.linear()).angle();
+  const double turn = object::RotationInBody(goal.linear(), state.pose.linear()).angle();
   if (length <= kGoalLength && turn <= kGoalAngle) return std::nullopt;
   return GoalMissed(state, goal);
 }

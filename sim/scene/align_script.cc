@@ -38,7 +38,7 @@ plan::FingerGrasp Interpolate(const plan::FingerGrasp& from, const plan::FingerG
     grasp::Contact& c = between[i].contact;
     c.p = (1 - share) * a.p + share * c.p;
     if (a.face == c.face) continue;
-    const Eigen::Quaterniond turn = AligningRotation(a.n, c.n);
+    const Eigen::Quaterniond turn = object::AligningRotation(a.n, c.n);
     c.n = (Eigen::Quaterniond::Identity().slerp(share, turn) * a.n).normalized();
     c.face = a.face;
   }

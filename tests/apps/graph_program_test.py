@@ -46,7 +46,7 @@ class Graph(ProgramCase):
         done, shown = self.run_on_terminal(*arguments)
         self.assertEqual(done.returncode, 0, shown)
         self.assert_stages(shown, "reading ", "checking 6 facets", "preparing 6 faces",
-                           "spreading 20 contact points")
+                           "sampling 20 contact points")
         self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
 
     def test_writes_the_same_as_json(self):

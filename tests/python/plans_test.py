@@ -105,7 +105,7 @@ class PlansTest(RegraspCase):
 
     def test_soft_fingers_are_not_replayed_by_the_second_engine(self):
         plan = regrasp.plan(self.cube, soft_pair(0), soft_pair(1), mu=0.5, torsion=0.01)
-        self.refuses(["ODE", "soft"], regrasp.validate, self.cube, plan, engine="ode")
+        self.refuses(["engine ode", "soft-finger"], regrasp.validate, self.cube, plan, engine="ode")
 
     def test_a_plan_goes_through_its_file(self):
         self.plan.write(self.path("mine.json"))

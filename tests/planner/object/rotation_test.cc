@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-namespace regrasp {
+namespace regrasp::object {
 namespace rotation_test {
 
 using Eigen::AngleAxisd;
@@ -42,4 +42,4 @@ TEST(Rotation, AlignsDirections) {
 }
 
 }  // namespace rotation_test
-}  // namespace regrasp
+}  // namespace regrasp::object

@@ -74,7 +74,8 @@ TEST(ConditionsTest, InvalidFilesAreRefusedWithThePlaceOfTheFault) {
   EXPECT_EQ(Refusal("[]"), "c.json: expected at least one condition, found an empty array");
   EXPECT_EQ(Refusal(R"({"name": "a"})"), "c.json: expected a JSON array, found a JSON object");
   EXPECT_EQ(Refusal(R"([{"gain_factor": 1}])"), "c.json: /0: member \"name\" not found");
-  EXPECT_EQ(Refusal(R"([{"name": "a"}, {"name": "a"}])"), "c.json: /1/name: found twice: \"a\"");
+  EXPECT_EQ(Refusal(R"([{"name": "a"}, {"name": "a"}])"),
+            "c.json: /1/name: must be unique, found twice: \"a\"");
   EXPECT_EQ(Refusal(R"([{"name": "a", "gains": 1}])"),
             "c.json: /0: member \"gains\" not supported");
   EXPECT_EQ(Refusal(R"([{"name": "a", "gain_factor": 0}])"),

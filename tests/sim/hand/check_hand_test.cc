@@ -414,7 +414,7 @@ TEST(CheckHandTest, AClearanceThatIsMissedIsToldWithWhatThereIs) {
   const double gap = faults.front().fault.hand->gap_m.value();
   EXPECT_GT(gap, 1e-3 - 1e-5) << "the plan keeps 1 mm";
   EXPECT_LT(gap, 0.02);
-  EXPECT_THAT(faults.front().detail, testing::HasSubstr("within " + FormatLength(gap)));
+  EXPECT_THAT(faults.front().detail, testing::HasSubstr("is " + FormatLength(gap) + " from"));
   EXPECT_THAT(faults.front().detail, testing::HasSubstr("required clearance 2 cm"));
 }
 
