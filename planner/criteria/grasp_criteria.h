@@ -16,7 +16,7 @@ namespace regrasp::criteria {
 
 /// Criteria of a static grasp, in addition to the requirements of the hand (reach.h, CanMeet).
 ///
-/// Every planner decides by GraspEvaluator whether a grasp is good, which uses the functions below.
+/// All planners evaluate grasps with GraspEvaluator, which calls the functions below.
 /// A new criterion, such as a limit of the largest contact force, is a field here and a row of the
 /// table in grasp_criteria.cc. All planners then apply it, relax it if they find no sequence, and
 /// warn of grasps that do not meet it.

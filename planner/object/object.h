@@ -42,10 +42,10 @@ struct Face {
 /// The object to grasp: a solid bounded by planar faces, or a polygon bounded by edges.
 ///
 /// A *face* is a maximal set of adjacent coplanar triangles in space, an edge in the plane. Planar
-/// objects are in the plane z = 0 and use the same 3D vectors. Contacts, plans, the checker and
-/// images therefore need one implementation only. All lengths are in units of the object file. An
-/// Object is immutable and valid by construction: closed, oriented, free of self-intersection, and
-/// one solid. With Shells::kUnion, several solids form one rigid body.
+/// objects are in the plane z = 0 and use the same 3D vectors, so that contacts, plans, the checker
+/// and images have one implementation. All lengths are in units of the object file. An Object is
+/// immutable and valid by construction: closed, oriented, free of self-intersection and connected.
+/// With Shells::kUnion it may consist of several solids that move as one rigid body.
 class Object {
  public:
   virtual ~Object() = default;
@@ -53,7 +53,7 @@ class Object {
   /// 2 for a polygon, 3 for a solid.
   [[nodiscard]] int dimension() const { return dimension_; }
 
-  /// Faces of a solid, edges of a polygon (holes included).
+  /// Number of faces of a solid or edges of a polygon (holes included).
   [[nodiscard]] int face_count() const { return static_cast<int>(faces_.size()); }
 
   /// Unit normal of a face, pointing into the material.

@@ -63,7 +63,7 @@ enum class SurfaceFormat { kObj, kOff, kPly, kStl, kXyz, kPcd, k3mf, kGltf, kCol
 /// Determine the format of a file.
 ///
 /// The extension of the file name determines it. For a name without extension, such as that of a
-/// pipe, the first bytes do. Every other format is rejected, although assimp reads about forty
+/// pipe, the first bytes determine it. Every other format is rejected, although assimp reads about forty
 /// more. assimp swaps the axes of some (3DS, ASE, DXF), mirrors others (X) and ignores units (AMF,
 /// X3D).
 /// @param path   name of the file.
@@ -105,10 +105,10 @@ inline constexpr double kAtGivenPoint = 1e-3;
 ///
 /// Points, lines, materials, cameras and animations are ignored. Features that move or add
 /// vertices are refused: skins, morph weights other than 0, instancing, compression, hidden nodes,
-/// and every required extension that is not known to leave the geometry alone. A file with several
+/// and every required extension that may change the geometry. A file with several
 /// scenes must name one. KHR_mesh_quantization is read.
 /// Source: glTF 2.0 Specification (Khronos, 2021).
-/// @throws InputError  without the file's name: JSON pointer and problem.
+/// @throws InputError  if the file is invalid; the text has JSON pointer and problem, but no name.
 [[nodiscard]] PolygonSoup ReadGltf(std::string_view bytes);
 
 }  // namespace regrasp::object
