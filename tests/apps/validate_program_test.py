@@ -353,7 +353,7 @@ class Validate(ProgramCase):
         path = self.write("result/.regrasp-run", "regrasp: process 7 on elsewhere\n")
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
-            self.assert_refused(3, "result: process 7 on elsewhere is writing",
+            self.assert_refused(3, "result: process 7 on elsewhere writes into this folder",
                                 *self.arguments("--frames", "none"))
         self.assert_passes("--frames", "none")
         self.assertFalse(os.path.exists(path))
