@@ -1,7 +1,12 @@
 #include "apps/evaluate_table.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/batch/line_records.h"
@@ -35,19 +40,33 @@ void CountReport(const Line& line, EvaluateCounts& counts) {
   if (reader.Has("reason")) ++counts.by_reason[reader.Member("reason").String()];
 }
 
-/// Append the rows of a confusion table.
-void AddConfusion(const std::string& title,
-                  const std::map<std::string, EvaluateCounts::Confusion>& by,
-                  std::vector<TextRow>& rows) {
-  rows.push_back({title, "pass, claimed", "fail, claimed", "pass, not claimed", "fail, not claimed",
-                  "pass, no claim", "fail, no claim"});
-  for (const auto& [name, confusion] : by) {
-    TextRow row = {name};
-    for (const auto& claim : confusion.counts) {
-      for (const std::int64_t count : claim) row.push_back(std::to_string(count));
+/// Names of the claims, in the order of Confusion.
+constexpr std::array kClaims = {"claimed success", "claimed failure", "no claim"};
+
+/// Format a confusion table: a row per name, and two columns per claim that a grasp makes.
+/// @returns an empty text if there are no rows.
+std::string ConfusionTable(const std::string& title,
+                           const std::map<std::string, EvaluateCounts::Confusion>& by) {
+  if (by.empty()) return "";
+  std::vector<TextRow> rows = {{title}};
+  for (const auto& [name, confusion] : by) rows.push_back({name});
+  for (std::size_t claim = 0; claim < kClaims.size(); ++claim) {
+    const auto has_claim = [&](const auto& row) {
+      const auto& counts = row.second.counts[claim];
+      return counts[0] > 0 || counts[1] > 0;
+    };
+    if (std::ranges::none_of(by, has_claim)) continue;
+    rows[0].push_back(std::string(kClaims[claim]) + ": pass");
+    rows[0].push_back("fail");
+    std::size_t row = 1;
+    for (const auto& [name, confusion] : by) {
+      for (const std::int64_t count : confusion.counts[claim]) {
+        rows[row].push_back(std::to_string(count));
+      }
+      ++row;
     }
-    rows.push_back(row);
   }
+  return FormatRows(rows);
 }
 
 }  // namespace
@@ -67,12 +86,9 @@ std::string FormatEvaluateTable(const EvaluateCounts& counts) {
   for (const auto& [reason, count] : counts.by_reason) {
     reasons.push_back({reason, std::to_string(count)});
   }
-  std::vector<TextRow> protocols;
-  AddConfusion("protocol", counts.by_protocol, protocols);
-  std::vector<TextRow> objects;
-  AddConfusion("object", counts.by_object, objects);
-  return (reasons.size() > 1 ? FormatRows(reasons) : "") + FormatRows(protocols) +
-         FormatRows(objects);
+  return (reasons.size() > 1 ? FormatRows(reasons) : "") +
+         ConfusionTable("protocol", counts.by_protocol) +
+         ConfusionTable("object", counts.by_object);
 }
 
 }  // namespace regrasp::apps

@@ -93,6 +93,17 @@ class Evaluate(ProgramCase):
         rows = [line.split() for line in done.stdout.splitlines()]
         self.assertIn(["box.obj", "1", "1", "0", "1", "1", "0"], rows)
         self.assertIn(["no-contact", "2"], rows)
+        header = "object   claimed success: pass  fail  claimed failure: pass  fail  no claim: pass  fail"
+        self.assertIn(header.split(), rows)
+
+    def test_table_omits_claims_that_no_grasp_makes(self):
+        self.write("grasps.jsonl", hand_grasp_files.lines([grasp("a"), grasp("b", 0.0)]))
+        done = self.run_program(*self.arguments(protocol="analytic"))
+        self.assertNotIn("claimed", done.stdout)
+        self.assertIn(["box.obj", "1", "1"], [line.split() for line in done.stdout.splitlines()])
+        self.write("grasps.jsonl", "{}\n")
+        done = self.run_program(*self.arguments("--restart", protocol="analytic"))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
 
     def test_violated_conventions_are_named(self):
         cases = [
