@@ -121,6 +121,16 @@ const XmlElement* XmlElement::Child(std::string_view child) const {
   return found == children.end() ? nullptr : &*found;
 }
 
+XmlElement MakeElement(std::string name,
+                       std::vector<std::pair<std::string, std::string>> attributes,
+                       std::vector<XmlElement> children) {
+  XmlElement element;
+  element.name = std::move(name);
+  element.attributes = std::move(attributes);
+  element.children = std::move(children);
+  return element;
+}
+
 XmlElement ParseXml(std::string_view text, const std::string& file) {
   const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr),
                                                                        XML_ParserFree);

@@ -26,6 +26,11 @@ struct XmlElement {
   [[nodiscard]] const XmlElement* Child(std::string_view child) const;
 };
 
+/// Return an element that is not from a file.
+[[nodiscard]] XmlElement MakeElement(std::string name,
+                                     std::vector<std::pair<std::string, std::string>> attributes,
+                                     std::vector<XmlElement> children = {});
+
 /// Parse an XML file.
 /// @param file  name of the file in messages.
 /// @throws InputError  if the text is not XML, or elements are nested deeper than 200 levels.

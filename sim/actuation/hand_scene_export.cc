@@ -35,31 +35,23 @@ std::string Numbers(std::initializer_list<double> values) {
   return text;
 }
 
-XmlElement Element(std::string name, std::vector<std::pair<std::string, std::string>> attributes,
-                   std::vector<XmlElement> children = {}) {
-  XmlElement element;
-  element.name = std::move(name);
-  element.attributes = std::move(attributes);
-  element.children = std::move(children);
-  return element;
-}
-
 /// Return the object's body as in the engine: free, at its centroid, with the axes of its frame.
 XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
   const object::MassProperties& properties = solid.mass_properties();
   const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
-  return Element("body", {{"name", kHandSceneObject}},
-                 {Element("freejoint", {}),
-                  Element("inertial", {{"pos", "0 0 0"},
-                                       {"mass", FormatDouble(mass)},
-                                       {"fullinertia",
-                                        Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
+  return kinematics::MakeElement(
+      "body", {{"name", kHandSceneObject}},
+      {kinematics::MakeElement("freejoint", {}),
+       kinematics::MakeElement(
+           "inertial", {{"pos", "0 0 0"},
+                        {"mass", FormatDouble(mass)},
+                        {"fullinertia", Numbers({inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                                  inertia(0, 1), inertia(0, 2), inertia(1, 2)})}}),
-                  Element("geom", {{"name", kHandSceneObject},
-                                   {"type", "sphere"},
-                                   {"size", "0.001"},
-                                   {"contype", "0"},
-                                   {"conaffinity", "0"}})});
+       kinematics::MakeElement("geom", {{"name", kHandSceneObject},
+                                        {"type", "sphere"},
+                                        {"size", "0.001"},
+                                        {"contype", "0"},
+                                        {"conaffinity", "0"}})});
 }
 
 /// Add the couplings of a finger as equality constraints. They relate angles relative to the
@@ -69,13 +61,13 @@ void AddCouplings(const kinematics::Finger& finger, std::vector<XmlElement>& cou
     if (!joint.follows) continue;
     const kinematics::Joint& leader = kinematics::LeadingJoint(finger, joint.drive);
     const double constant = joint.coupling_offset + joint.ratio * leader.rest - joint.rest;
-    couplings.push_back(
-        Element("joint", {{"joint1", joint.name},
-                          {"joint2", leader.name},
-                          // A linkage is as stiff as contacts (tip_geometry.h).
-                          {"solref", FormatDouble(kTipContactTime) + " 1"},
-                          {"solimp", NumbersText({kTipImpedance.begin(), kTipImpedance.end()})},
-                          {"polycoef", Numbers({constant, joint.ratio, 0, 0, 0})}}));
+    couplings.push_back(kinematics::MakeElement(
+        "joint", {{"joint1", joint.name},
+                  {"joint2", leader.name},
+                  // A linkage is as stiff as contacts (tip_geometry.h).
+                  {"solref", FormatDouble(kTipContactTime) + " 1"},
+                  {"solimp", NumbersText({kTipImpedance.begin(), kTipImpedance.end()})},
+                  {"polycoef", Numbers({constant, joint.ratio, 0, 0, 0})}}));
   }
 }
 
@@ -118,7 +110,7 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   for (const kinematics::Finger& finger : file.hand.fingers) {
     for (int drive = 0; drive < finger.drives; ++drive) {
       const std::string& name = kinematics::LeadingJoint(finger, drive).name;
-      XmlElement& motor = motors.emplace_back(Element("motor", {{"joint", name}}));
+      XmlElement& motor = motors.emplace_back(kinematics::MakeElement("motor", {{"joint", name}}));
       const auto found = urdf.efforts.find(name);
       if (found == urdf.efforts.end()) continue;
       const double effort = found->second;
@@ -126,7 +118,7 @@ kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
       motor.Set("forcerange", Numbers({-effort, effort}));
     }
   }
-  text.root.children.push_back(Element("actuator", {}, std::move(motors)));
+  text.root.children.push_back(kinematics::MakeElement("actuator", {}, std::move(motors)));
   return text;
 }
 
@@ -144,10 +136,11 @@ void WriteInertias(const mjModel& model, XmlElement& element, int& last) {
     if (model.body_mass[body] > 0) {
       child.children.insert(
           child.children.begin(),
-          Element("inertial", {{"pos", BodyNumbers(model.body_ipos, body, 3)},
-                               {"quat", BodyNumbers(model.body_iquat, body, 4)},
-                               {"mass", FormatDouble(model.body_mass[body])},
-                               {"diaginertia", BodyNumbers(model.body_inertia, body, 3)}}));
+          kinematics::MakeElement("inertial",
+                                  {{"pos", BodyNumbers(model.body_ipos, body, 3)},
+                                   {"quat", BodyNumbers(model.body_iquat, body, 4)},
+                                   {"mass", FormatDouble(model.body_mass[body])},
+                                   {"diaginertia", BodyNumbers(model.body_inertia, body, 3)}}));
     }
     WriteInertias(model, child, last);
   }
@@ -177,11 +170,13 @@ kinematics::ModelText HandSceneText(const kinematics::HandFile& file,
   std::erase_if(root.children, [](const XmlElement& child) {
     return child.name == "keyframe" || child.name == "size" || child.name == "sensor";
   });
-  root.children.push_back(Element("size", {{"njmax", "600"}, {"nconmax", "150"}}));
-  root.children.push_back(Element("worldbody", {}, {ObjectBody(solid, scale, mass)}));
+  root.children.push_back(kinematics::MakeElement("size", {{"njmax", "600"}, {"nconmax", "150"}}));
+  root.children.push_back(
+      kinematics::MakeElement("worldbody", {}, {ObjectBody(solid, scale, mass)}));
   std::vector<XmlElement> couplings;
   for (const kinematics::Finger& finger : file.hand.fingers) AddCouplings(finger, couplings);
-  if (!couplings.empty()) root.children.push_back(Element("equality", {}, std::move(couplings)));
+  if (!couplings.empty())
+    root.children.push_back(kinematics::MakeElement("equality", {}, std::move(couplings)));
   return text;
 }
 
@@ -191,14 +186,6 @@ constexpr const char* kMeshPrefix = "mesh_";
 constexpr const char* kTipPrefix = "regrasp_tip_";
 constexpr const char* kPiecePrefix = "regrasp_object_";
 
-XmlElement ExportElement(std::string name,
-                         std::vector<std::pair<std::string, std::string>> attributes) {
-  XmlElement element;
-  element.name = std::move(name);
-  element.attributes = std::move(attributes);
-  return element;
-}
-
 void ForEach(XmlElement& element, const std::function<void(XmlElement&)>& visit) {
   visit(element);
   for (XmlElement& child : element.children) ForEach(child, visit);
@@ -207,8 +194,9 @@ void ForEach(XmlElement& element, const std::function<void(XmlElement&)>& visit)
 /// Return the section of that name; create it if it is missing.
 XmlElement& Section(XmlElement& root, const std::string& name) {
   const auto found = std::ranges::find(root.children, name, &XmlElement::name);
-  return found != root.children.end() ? *found
-                                      : root.children.emplace_back(ExportElement(name, {}));
+  return found != root.children.end()
+             ? *found
+             : root.children.emplace_back(kinematics::MakeElement(name, {}));
 }
 
 class SceneWriter {
@@ -239,10 +227,11 @@ class SceneWriter {
     AddContacts();
     XmlElement& frames = Section(root, "keyframe");
     for (const SceneKey& key : keys) {
-      frames.children.push_back(ExportElement("key", {{"name", key.name},
-                                                      {"time", FormatDouble(key.time_s)},
-                                                      {"qpos", NumbersText(key.qpos)},
-                                                      {"ctrl", NumbersText(key.controls)}}));
+      frames.children.push_back(
+          kinematics::MakeElement("key", {{"name", key.name},
+                                          {"time", FormatDouble(key.time_s)},
+                                          {"qpos", NumbersText(key.qpos)},
+                                          {"ctrl", NumbersText(key.controls)}}));
     }
     files.push_back({kSceneName, kinematics::FormatXml(root)});
     return files;
@@ -322,13 +311,13 @@ class SceneWriter {
   void AddToObject(XmlElement& body) {
     body.children.push_back(OriginSite());
     for (std::size_t i = 0; i < shell_.size(); ++i) {
-      body.children.push_back(ExportElement("geom", {{"name", PieceName(i)},
-                                                     {"type", "mesh"},
-                                                     {"mesh", PieceName(i)},
-                                                     {"mass", "0"},
-                                                     {"group", "3"},
-                                                     {"contype", "0"},
-                                                     {"conaffinity", "0"}}));
+      body.children.push_back(kinematics::MakeElement("geom", {{"name", PieceName(i)},
+                                                               {"type", "mesh"},
+                                                               {"mesh", PieceName(i)},
+                                                               {"mass", "0"},
+                                                               {"group", "3"},
+                                                               {"contype", "0"},
+                                                               {"conaffinity", "0"}}));
     }
   }
 
@@ -346,21 +335,22 @@ class SceneWriter {
       }
       tips_.push_back(kTipPrefix + std::to_string(i));
       element.children.push_back(
-          ExportElement("geom", {{"name", tips_.back()},
-                                 {"type", "sphere"},
-                                 {"size", FormatDouble(tips[i].radius)},
-                                 {"pos", NumbersText(tips[i].centre.data(), 3)},
-                                 {"mass", "0"},
-                                 {"rgba", "0.9 0.5 0.1 0.5"},
-                                 {"contype", "0"},
-                                 {"conaffinity", "0"}}));
+          kinematics::MakeElement("geom", {{"name", tips_.back()},
+                                           {"type", "sphere"},
+                                           {"size", FormatDouble(tips[i].radius)},
+                                           {"pos", NumbersText(tips[i].centre.data(), 3)},
+                                           {"mass", "0"},
+                                           {"rgba", "0.9 0.5 0.1 0.5"},
+                                           {"contype", "0"},
+                                           {"conaffinity", "0"}}));
     }
   }
 
   /// Return the origin of the object's file, in the frame of the object's body at its centroid.
   [[nodiscard]] XmlElement OriginSite() const {
     const Eigen::Vector3d origin = -scale_ * solid_.mass_properties().centroid;
-    return ExportElement("site", {{"name", kSceneOrigin}, {"pos", NumbersText(origin.data(), 3)}});
+    return kinematics::MakeElement(
+        "site", {{"name", kSceneOrigin}, {"pos", NumbersText(origin.data(), 3)}});
   }
 
   /// Return the object's mesh about its centroid, in metres.
@@ -386,7 +376,7 @@ class SceneWriter {
       for (const int corner : triangle)
         faces += (faces.empty() ? "" : " ") + std::to_string(corner);
     }
-    return ExportElement(
+    return kinematics::MakeElement(
         "mesh",
         // The hand's model may have a default scale of meshes.
         {{"name", name}, {"scale", "1 1 1"}, {"vertex", NumbersText(numbers)}, {"face", faces}});
@@ -412,7 +402,7 @@ class SceneWriter {
     XmlElement& defaults = Section(text_.root, "default");
     std::erase_if(defaults.children, [](const XmlElement& child) { return child.name == "pair"; });
     const std::string mu = FormatDouble(mu_);
-    defaults.children.push_back(ExportElement(
+    defaults.children.push_back(kinematics::MakeElement(
         "pair", {{"condim", "3"},
                  {"friction", mu + " " + mu + " 0.005 0.0001 0.0001"},
                  {"solref", FormatDouble(kTipContactTime) + " 1"},
@@ -426,7 +416,8 @@ class SceneWriter {
   }
 
   static void AddContact(XmlElement& contacts, const std::string& tip, const std::string& object) {
-    contacts.children.push_back(ExportElement("pair", {{"geom1", tip}, {"geom2", object}}));
+    contacts.children.push_back(
+        kinematics::MakeElement("pair", {{"geom1", tip}, {"geom2", object}}));
   }
 
   const kinematics::HandFile& file_;

@@ -7,6 +7,7 @@
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
 #include "planner/grasp/quality.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::sim {
 namespace {
@@ -44,7 +45,7 @@ constexpr double kTargetSlide = 5e-3;
 constexpr double kRangeTolerance = 1e-3;
 
 double AngleDeg(const Isometry3d& from, const Isometry3d& to) {
-  return Degrees(Eigen::AngleAxisd(from.linear().transpose() * to.linear()).angle());
+  return Degrees(object::RotationInBody(from.linear(), to.linear()).angle());
 }
 
 /// The tests of one grasp in one world.

@@ -29,7 +29,7 @@ struct GraspPhysics {
 /// The whole hand and the free object in MuJoCo.
 ///
 /// All collision geometry of the hand touches the object and, as in its model, itself. The palm
-/// follows the mount by a weld, as in DexGraspBench. There is no gravity; loads on the object
+/// follows the mount by a weld, as in DexGraspBench. Gravity is off; loads on the object
 /// replace it. The object is its convex pieces if they are given. Otherwise a convex object is one
 /// mesh, and any other object is its surface shell (surface_shell.h), which takes more time.
 ///
@@ -89,9 +89,10 @@ class GraspWorld {
   [[nodiscard]] bool IsTouched() const;
   /// Return the bodies of the hand that have collision geometry.
   [[nodiscard]] const std::vector<int>& links() const { return links_; }
-  /// Return the sum of J^T f over the joints: the motion of each joint that moves a link's point
-  /// along a direction.
-  /// @param point, direction  in the frame of the placed object. @returns motion by joint name.
+  /// Return Jᵀd for a point of a link: per joint, the velocity of the point along the direction d
+  /// at unit joint velocity.
+  /// @param point, direction  in the frame of the placed object, metres.
+  /// @returns by joint name: metres per radian, or a ratio for prismatic joints.
   [[nodiscard]] std::map<std::string, double> JointMotion(int link, const Eigen::Vector3d& point,
                                                           const Eigen::Vector3d& direction) const;
   /// Return a configuration with its joints clamped to their ranges.

@@ -28,17 +28,6 @@ constexpr char kHandFormat[] = "regrasp-hand";
 constexpr char kFrameMass[] = "0.01";
 constexpr char kFrameInertia[] = "1e-05 1e-05 1e-05";
 
-using Attributes = std::vector<std::pair<std::string, std::string>>;
-
-XmlElement HandElement(std::string name, Attributes attributes,
-                       std::vector<XmlElement> children = {}) {
-  XmlElement element;
-  element.name = std::move(name);
-  element.attributes = std::move(attributes);
-  element.children = std::move(children);
-  return element;
-}
-
 /// Return the names of the joints that an actuator can move.
 std::vector<std::string> ScalarJoints(const mjModel& model) {
   std::vector<std::string> names;
@@ -60,7 +49,7 @@ kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compile
   std::vector<XmlElement> motors;
   for (const kinematics::Mimic& mimic : urdf.mimics) {
     following.insert(mimic.joint);
-    couplings.push_back(HandElement(
+    couplings.push_back(kinematics::MakeElement(
         "joint", {{"joint1", mimic.joint},
                   {"joint2", mimic.follows},
                   {"polycoef",
@@ -68,15 +57,15 @@ kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compile
   }
   for (const std::string& joint : ScalarJoints(*compiled.model)) {
     if (following.contains(joint)) continue;
-    XmlElement& motor = motors.emplace_back(HandElement("motor", {{"joint", joint}}));
+    XmlElement& motor = motors.emplace_back(kinematics::MakeElement("motor", {{"joint", joint}}));
     const auto found = urdf.efforts.find(joint);
     if (found == urdf.efforts.end()) continue;
     motor.Set("forcelimited", "true");
     motor.Set("forcerange", FormatDouble(-found->second) + " " + FormatDouble(found->second));
   }
-  text.root.children.push_back(HandElement("actuator", {}, std::move(motors)));
+  text.root.children.push_back(kinematics::MakeElement("actuator", {}, std::move(motors)));
   if (!couplings.empty()) {
-    text.root.children.push_back(HandElement("equality", {}, std::move(couplings)));
+    text.root.children.push_back(kinematics::MakeElement("equality", {}, std::move(couplings)));
   }
   return text;
 }
@@ -107,11 +96,11 @@ void PrepareBodies(XmlElement& element, int& bodies) {
 
 /// Put everything in the world into one free body, and weld the palm to the mount.
 void WrapHand(const std::string& palm, XmlElement& root) {
-  XmlElement frame = HandElement(
+  XmlElement frame = kinematics::MakeElement(
       "body", {{"name", kWholeHandBody}},
-      {HandElement("freejoint", {}),
-       HandElement("inertial",
-                   {{"pos", "0 0 0"}, {"mass", kFrameMass}, {"diaginertia", kFrameInertia}})});
+      {kinematics::MakeElement("freejoint", {}),
+       kinematics::MakeElement(
+           "inertial", {{"pos", "0 0 0"}, {"mass", kFrameMass}, {"diaginertia", kFrameInertia}})});
   int bodies = 0;
   for (XmlElement& section : root.children) {
     if (section.name != "worldbody") continue;
@@ -124,14 +113,15 @@ void WrapHand(const std::string& palm, XmlElement& root) {
     return section.name == "worldbody" || section.name == "keyframe" || section.name == "size" ||
            section.name == "sensor";
   });
-  root.children.push_back(HandElement("size", {{"njmax", "1200"}, {"nconmax", "250"}}));
-  root.children.push_back(HandElement(
+  root.children.push_back(kinematics::MakeElement("size", {{"njmax", "1200"}, {"nconmax", "250"}}));
+  root.children.push_back(kinematics::MakeElement(
       "worldbody", {},
-      {HandElement("body", {{"name", kWholeHandMount}, {"mocap", "true"}}), std::move(frame)}));
-  root.children.push_back(HandElement(
+      {kinematics::MakeElement("body", {{"name", kWholeHandMount}, {"mocap", "true"}}),
+       std::move(frame)}));
+  root.children.push_back(kinematics::MakeElement(
       "equality", {},
-      {HandElement("weld",
-                   {{"body1", kWholeHandMount}, {"body2", palm}, {"relpose", "0 0 0 1 0 0 0"}})}));
+      {kinematics::MakeElement(
+          "weld", {{"body1", kWholeHandMount}, {"body2", palm}, {"relpose", "0 0 0 1 0 0 0"}})}));
 }
 
 /// Return the digest of the hand file, the model's files and the meshes, as that of a hand.
