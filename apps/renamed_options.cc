@@ -55,10 +55,13 @@ constexpr std::array kRenamings = std::to_array<Renaming>({
     {kReplay, "--tolerance-mm", "--tolerance", "*mm"},
     {kReplay, "--tolerance-deg", "--tolerance", "*deg"},
     {kReplay, "--min-pass-rate", "--trials", "min-pass-rate=*"},
-    {kReplay, "--position-noise", "--noise", "position=*"},
-    {kReplay, "--friction-error", "--noise", "friction=*"},
-    {kReplay, "--mass-error", "--noise", "mass=*"},
-    {kReplay, "--joint-noise", "--noise", "joints=*"},
+    {kReplay, "--position-noise", "--trials", "position=*"},
+    {kReplay, "--friction-error", "--trials", "friction=*"},
+    {kReplay, "--mass-error", "--trials", "mass=*"},
+    {kReplay, "--joint-noise", "--trials", "joints=*"},
+    {kReplay, "--noise", "--trials", "*"},
+    {kReplay, "--protocol", "--disturbance", "*"},
+    {kReplay, "--animate", "--frames", "animation"},
     {kReplay, "--min-quality", "--export-states", "min-quality=*"},
     {kReplay, "--no-frames", "--frames", "none"},
     {kReplay, "--show-focus", "--show", "focus"},
@@ -76,6 +79,8 @@ constexpr std::array kRenamings = std::to_array<Renaming>({
 
 constexpr char kContact[] = "--contact";
 constexpr char kTorsion[] = "--torsion";
+constexpr char kConditions[] = "--conditions";
+constexpr char kRequire[] = "--require";
 
 bool IsOf(const Renaming& renaming, std::string_view program) {
   const std::string names = " " + std::string(renaming.programs) + " ";
@@ -124,6 +129,7 @@ class Renamer {
     std::optional<std::string> value;
     if (sign != std::string::npos) value = word.substr(sign + 1);
     if (name == kContact && program_ != "figure") return RenameContact(value);
+    if (name == kRequire && program_ == kReplay) return RenameRequire(value);
     const Renaming* renaming = FindRenaming(program_, name);
     if (renaming == nullptr) {
       result_.words.push_back(word);
@@ -164,6 +170,22 @@ class Renamer {
     if (HasWord(words_, kTorsion)) throw InputError(old + ": cannot be used with --torsion");
     result_.words.push_back(std::string(kTorsion) + "=0");
     Note(old, std::string(kTorsion) + " 0");
+  }
+
+  /// Replace `--require standard|conditions[=SHARE]` by a setting of --conditions.
+  void RenameRequire(std::optional<std::string> value) {
+    if (!value) value = TakeValue();
+    const std::string text = value.value_or("");
+    const std::size_t sign = text.find('=');
+    const std::string word = text.substr(0, sign);
+    if (word != "standard" && word != "conditions") {
+      throw InputError(std::string(kRequire) + ": expected standard or conditions, found \"" +
+                       word + "\"; help: use --conditions standard,require instead");
+    }
+    std::string items = "require" + text.substr(word.size());
+    if (word == "standard" && !HasWord(words_, kConditions)) items = "standard," + items;
+    result_.words.push_back(std::string(kConditions) + "=" + items);
+    Note(std::string(kRequire) + " " + text, std::string(kConditions) + " " + items);
   }
 
   /// Return the value of an option; nullopt if it is missing.

@@ -55,8 +55,8 @@ void AddStates(CLI::App& app, ValidateOptions& options) {
 
 void CheckForGrasps(ValidateOptions& options, const CLI::App& app) {
   const std::set<std::string> of_replay = {"--mass",          "--density",     "--thickness",
-                                           "--finger-radius", "--grasp-force", "--protocol",
-                                           "--tolerance",     "--engine",      "--disturbance"};
+                                           "--finger-radius", "--grasp-force", "--tolerance",
+                                           "--engine",        "--disturbance"};
   std::set<std::string> served = {"--object", "--grasps",  "--compute", "--output",
                                   "--mu",     "--repair",  "--shells",  "--friction-angle",
                                   "--quiet",  "--torsion", "--scale",   "--replay"};

@@ -10,6 +10,7 @@
 #include "apps/help.h"
 #include "apps/list_option.h"
 #include "apps/validate_modes.h"
+#include "apps/validate_simulation.h"
 #include "apps/view_options.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -139,189 +140,6 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
             "M");
 }
 
-void AddGraspForce(CLI::App& app, sim::ReplayOptions& replay) {
-  const auto parse = [&replay](const std::string& text) {
-    replay.hand_grasp_force = text == "realistic";
-    if (!replay.hand_grasp_force) {
-      replay.grasp_force_N = ParseNumber("--grasp-force", text, NumberRange::Positive());
-    }
-  };
-  app.add_option_function<std::string>(
-         "--grasp-force", parse,
-         "Sum of the normal forces of a static grasp, newtons. realistic: twice what the weight "
-         "requires in the weakest grasp, at most 200 N. By default the weight is a tenth of the "
-         "disturbance force")
-      ->type_name("N|realistic");
-}
-
-void AddDisturbance(CLI::App& app, ValidateOptions& options) {
-  ListOption("--disturbance")
-      .Values("a number",
-              {NumberParser(options.replay.disturbance_ratio, NumberRange::NotNegative())})
-      .Word("limits", [&options] { options.replay.resisted_wrench = true; })
-      .AddTo(app, "RHO[,limits]",
-             "Size of the disturbance test. Force over grasp force, and torque over grasp force "
-             "times half the diameter [default: 0.01]\n"
-             "limits: also find the largest resisted force and torque in every direction, about "
-             "ten times as slow");
-}
-
-/// Parse a tolerance: "0.001" (object diameters), "2mm" or "5deg".
-void ParseTolerance(ValidateOptions& options, const std::string& name, const std::string& text) {
-  constexpr double kMetre_mm = 1e3, kHalfTurn_deg = 180;
-  const std::size_t end = text.find_first_not_of("0123456789.+-eE");
-  // The number parser would read "2e" as a number with an exponent.
-  const std::string unit = end == std::string::npos ? "" : text.substr(end);
-  const std::string number = text.substr(0, end);
-  if (!options.settings.insert(name + " " + (unit.empty() ? "diameters" : unit)).second) {
-    throw CLI::ValidationError(name, "found two tolerances of one kind, expected one");
-  }
-  if (unit.empty()) {
-    options.replay.tolerance = ParseNumber(name, number, NumberRange::Positive());
-  } else if (unit == "mm") {
-    options.tolerance_mm = ParseNumber(name, number, {0, kMetre_mm, false, true});
-  } else if (unit == "deg") {
-    options.tolerance_deg = ParseNumber(name, number, {0, kHalfTurn_deg, false, true});
-  } else {
-    throw CLI::ValidationError(
-        name, "expected a number, or one with the unit mm or deg, found \"" + text + "\"");
-  }
-}
-
-/// Return a parser of an angle in degrees, stored in radians.
-ListOption::Parser DegreesParser(double& radians) {
-  return [&radians](const std::string& name, const std::string& text) {
-    constexpr double kHalfTurn_deg = 180;
-    radians = Radians(ParseNumber(name, text, {0, kHalfTurn_deg}));
-  };
-}
-
-/// Return a parser of a length in millimetres, stored in metres.
-ListOption::Parser MillimetresParser(double& metres) {
-  return [&metres](const std::string& name, const std::string& text) {
-    constexpr double kMetre_mm = 1e3;
-    metres = ParseNumber(name, text, {0, kMetre_mm}) / kMetre_mm;
-  };
-}
-
-void AddFeedback(CLI::App& app, ValidateOptions& options) {
-  constexpr double kMostDelay_s = 10;
-  constexpr double kMostRate_Hz = 10'000;
-  sim::HandSensing& sensing = options.sensing;
-  ListOption("--feedback", &options.settings)
-      .Word("pose", [&sensing] { sensing.feedback = sim::PoseFeedback::kPose; })
-      .Word("none", [&sensing] { sensing.feedback = sim::PoseFeedback::kNone; })
-      .Key("delay", NumberParser(sensing.pose_delay_s, {0, kMostDelay_s}))
-      .Key("rate", NumberParser(sensing.pose_rate_Hz,
-                                {.lower = 0, .upper = kMostRate_Hz, .lower_included = false}))
-      .Key("noise-mm", MillimetresParser(sensing.pose_noise_m))
-      .Key("noise-deg", DegreesParser(sensing.pose_noise_rad))
-      .Key("bias-mm", MillimetresParser(sensing.pose_bias_m))
-      .Key("bias-deg", DegreesParser(sensing.pose_bias_rad))
-      .AddTo(app, "pose|none[,KEY=VALUE,…]",
-             "Measured object pose in the hand replay [default: pose]\n"
-             "pose: a camera; none: joints and touch only\n"
-             "delay=S: age of a measured pose [default: 0.05]\n"
-             "rate=HZ: measured poses per second [default: 30]\n"
-             "noise-mm=MM, noise-deg=DEG: standard deviations per axis [default: 0.3, 0.3]\n"
-             "bias-mm=MM, bias-deg=DEG: standard deviations of constant errors per axis [default: "
-             "0, 0]");
-}
-
-void AddReplay(CLI::App& app, ValidateOptions& options) {
-  ListOption("--replay", &options.settings)
-      .Word("points", [&options] { options.replay_by_hand = false; })
-      .Word("hand", [&options] { options.replay_by_hand = true; })
-      .Key("align", ChoiceParser<sim::AlignChoice>(options.replay.align,
-                                                   {{"imitate", sim::AlignChoice::kImitate},
-                                                    {"slide", sim::AlignChoice::kSlide}}))
-      .Key("tip",
-           ChoiceParser<sim::TipShape>(options.tip, {{"ball", sim::TipShape::kBall},
-                                                     {"geometry", sim::TipShape::kGeometry}}))
-      // Old form of --feedback, accepted for one version.
-      .Key("feedback", ChoiceParser<sim::PoseFeedback>(options.sensing.feedback,
-                                                       {{"pose", sim::PoseFeedback::kPose},
-                                                        {"none", sim::PoseFeedback::kNone}}))
-      .AddTo(app, "points|hand[,KEY=VALUE,…]",
-             "Simulation model that executes the plan [default: hand with --hand, otherwise "
-             "points]\n"
-             "points: ideal point fingers\n"
-             "hand: the model of --hand with its actuators, gravity and friction\n"
-             "align=imitate|slide (points): free fingers take over while a finger is "
-             "repositioned, or fingers slide along the surface [default: imitate]\n"
-             "tip=ball|geometry (hand): collision shape of fingertips, the sphere of the hand file "
-             "or the geoms of the model [default: ball]");
-  AddFeedback(app, options);
-  AddChoice<sim::EngineChoice>(app, "--engine", options.replay.engine,
-                               {{"mujoco", sim::EngineChoice::kMujoco},
-                                {"ode", sim::EngineChoice::kOde},
-                                {"both", sim::EngineChoice::kBoth}},
-                               "Physics engine of the replay [default: mujoco]\n"
-                               "ode: Open Dynamics Engine with the same scene and disturbances\n"
-                               "both: MuJoCo decides, and differing steps are listed");
-  AddGraspForce(app, options.replay);
-  AddDisturbance(app, options);
-  AddChoice<sim::Protocol>(app, "--protocol", options.replay.protocol,
-                           {{"adapted", sim::Protocol::kAdapted},
-                            {"fixed", sim::Protocol::kFixed},
-                            {"both", sim::Protocol::kBoth}},
-                           "Response of the fingers to the disturbance [default: adapted]\n"
-                           "adapted: forces planned per direction\n"
-                           "fixed: constant forces and servo stiffness\n"
-                           "both: adapted decides");
-  ListOption("--tolerance")
-      .AnyValue([&options](const std::string& name, const std::string& text) {
-        ParseTolerance(options, name, text);
-      })
-      .AddTo(app, "X|MMmm,DEGdeg",
-             "Tolerances of object motion [default: 0.001 or 2mm,5deg]\n"
-             "X (--replay points): object diameters, also for fingertip slip\n"
-             "MMmm, DEGdeg (--replay hand): displacement and rotation, half of them for static "
-             "grasps");
-}
-
-void AddTrialOptions(CLI::App& app, ValidateOptions& options) {
-  constexpr int kMostTrials = 1'000'000;
-  constexpr double kMostJointNoise_deg = 45;
-  const NumberRange share{0, sim::kMostError};
-  CLI::Option* trials =
-      ListOption("--trials")
-          .Values("the number of trials", {IntegerParser(options.trials.count, 1, kMostTrials)})
-          .Key("min-pass-rate", NumberParser(options.trials.min_pass_rate,
-                                             {.lower = 0, .upper = 1, .lower_included = false}))
-          .AddTo(app, "N[,min-pass-rate=RATE]",
-                 "Repeat the replay N times with noise. The replay without noise must pass too\n"
-                 "min-pass-rate=RATE: required share of passing trials [default: 1]");
-  ListOption("--noise", &options.settings)
-      .Key("position", NumberParser(options.trials.position_noise, share))
-      .Key("friction", NumberParser(options.trials.friction_error, share))
-      .Key("mass", NumberParser(options.trials.mass_error, share))
-      .Key("joints", NumberParser(options.joint_noise_deg, {0, kMostJointNoise_deg}))
-      .AddTo(app, "KEY=VALUE,…",
-             "Standard deviations of the noise of --trials.\n"
-             "position=X: contacts along the surface, with --replay hand the initial object pose, "
-             "in object diameters [default: 0.01]\n"
-             "friction=X: relative error of the friction coefficient [default: 0.1]\n"
-             "mass=X: relative error of the mass [default: 0.1]\n"
-             "joints=DEG (--replay hand): measured joint angles [default: 0.5]")
-      ->needs(trials);
-  app.add_option("--conditions", options.conditions,
-                 "Replay by the hand also under each of several conditions [default: "
-                 "nominal]\n"
-                 "nominal: none\n"
-                 "standard: sensors, friction, mass, actuators and contact models that differ "
-                 "(docs/conditions.md)\n"
-                 "FILE: conditions in JSON (docs/conditions.schema.json)")
-      ->type_name("nominal|standard|FILE");
-  app.add_option("--require", options.require,
-                 "Let the verdict depend on conditions. SHARE is the share that must pass "
-                 "[default: 1]\n"
-                 "standard: those of --conditions standard\n"
-                 "conditions: those of --conditions FILE")
-      ->type_name("standard|conditions[=SHARE]");
-  AddSeed(app, options.trials.seed, "Random seed of --trials or --export-states [default: 0]");
-}
-
 void AddVideo(CLI::App& app, std::string& video) {
   const auto parse = [&video](const std::string& file) {
     if (!render::FindAnimationFormat(file) && !file.ends_with(".html")) {
@@ -331,11 +149,12 @@ void AddVideo(CLI::App& app, std::string& video) {
     }
     video = file;
   };
-  app.add_option_function<std::string>("--video", parse,
-                                       "Write the replay to this file. .mp4 (H.264), .gif or "
-                                       ".webp: an animation, which the HTML report also shows "
-                                       "unless --animate is given; .html: the interactive 3-D "
-                                       "replay")
+  app.add_option_function<std::string>(
+         "--video", parse,
+         "Write the replay to this file. .mp4 (H.264), .gif or "
+         ".webp: an animation, which the HTML report also shows "
+         "unless --frames animation is given; .html: the interactive 3-D "
+         "replay")
       ->type_name("FILE");
 }
 
@@ -351,8 +170,10 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
            ChoiceParser<ViewerPages>(options.viewer, {{"frames", ViewerPages::kWithFrames},
                                                       {"all", ViewerPages::kAll},
                                                       {"none", ViewerPages::kNone}}))
-      .AddTo(app, "all|failed|none[,viewer=frames|all|none]",
+      .Word("animation", [&options] { options.animate = true; })
+      .AddTo(app, "all|failed|none[,viewer=frames|all|none][,animation]",
              "Which plans and grasps get frames [default: all; none for a file of plans]\n"
+             "animation: also write the replay as replay.webp, which the HTML report shows\n"
              "viewer=frames|all|none: HTML reports with the interactive 3-D replay, those with "
              "frames by default");
   ListOption("--show")
@@ -379,15 +200,12 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
                  "animation=WxH: size of animations [default: half of the frames]\n"
                  "overview=W: width of overview.png [default: 1600]");
   AddFrameView(app, options.frame);
-  app.add_flag("--animate", options.animate,
-               "Also write the replay as an animation, replay.webp. The HTML report shows it");
   AddVideo(app, options.video);
 }
 
 /// Limit for the workers: each has two images with four samples per pixel in memory.
 constexpr int kMostWorkers = 16;
 
-constexpr char kConditionsWord[] = "conditions";
 constexpr char kSeveralPlans[] = "requires several plans, a folder or a file of plans (*.jsonl)";
 constexpr char kSeveralPlansOrConditions[] =
     "requires several plans, a folder or a file of plans (*.jsonl), or --conditions";
@@ -417,8 +235,7 @@ void ValidateOptions::AddTo(CLI::App& app) {
   BeginGroup(app, "Friction and contact");
   AddBodies(app, *this);
   BeginGroup(app, "Simulation");
-  AddReplay(app, *this);
-  AddTrialOptions(app, *this);
+  AddSimulation(app, *this);
   BeginGroup(app, "Reset states");
   AddStates(app, *this);
   BeginGroup(app, "Output");
@@ -453,10 +270,10 @@ void ValidateOptions::Refuse(const CLI::App& app, std::initializer_list<const ch
 void ValidateOptions::CheckPlans(const CLI::App& app) {
   if (!for_lines()) Refuse(app, {"--shard"}, "requires a file of plans (*.jsonl)");
   if (for_lines()) {
-    Refuse(
-        app,
-        {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--animate", "--junit"},
-        "cannot be used with a file of plans (*.jsonl)");
+    Refuse(app,
+           {"--trajectory", "--export-mjcf", "--verify", "--json", "--video", "--frames animation",
+            "--junit"},
+           "cannot be used with a file of plans (*.jsonl)");
     if (app.count("--frames") == 0) frames = Frames::kNone;
     plan_path = plans.front();
   } else if (for_batch()) {
@@ -466,73 +283,9 @@ void ValidateOptions::CheckPlans(const CLI::App& app) {
     }
   } else {
     Refuse(app, {"--time-limit", "--restart"}, kSeveralPlans);
-    if (conditions.empty() && require.empty()) Refuse(app, {"--jobs"}, kSeveralPlansOrConditions);
+    if (conditions.empty()) Refuse(app, {"--jobs"}, kSeveralPlansOrConditions);
     if (!for_grasp()) plan_path = plans.front();
   }
-}
-
-void ValidateOptions::CheckReplay(const CLI::App& app) {
-  if (!settings.contains("--replay points") && !settings.contains("--replay hand")) {
-    replay_by_hand = !hand.empty();
-  }
-  if (settings.contains("--replay points") && settings.contains("--replay hand")) {
-    throw InputError("--replay: found points and hand, expected one of them");
-  }
-  if (replay_by_hand) {
-    if (hand.empty()) throw InputError("--replay hand: requires --hand");
-    if (replay.resisted_wrench) throw InputError("--disturbance limits: requires --replay points");
-    Refuse(app, {"--protocol", "--tolerance diameters", "--replay align", "--finger-radius"},
-           "requires --replay points");
-    if (replay.engine == sim::EngineChoice::kOde) {
-      Refuse(app, {"--trajectory", "--export-mjcf"}, "requires --engine mujoco or both");
-    }
-    trials.joint_noise = Radians(joint_noise_deg);
-    return;
-  }
-  Refuse(app,
-         {"--tolerance mm", "--tolerance deg", "--feedback", "--replay feedback", "--replay tip",
-          "--noise joints"},
-         "requires --replay hand");
-  if (trajectory_is_npz()) {
-    throw InputError("--trajectory: " + trajectory + ": NPZ format requires --replay hand");
-  }
-}
-
-void ValidateOptions::CheckConditions(const CLI::App& app) {
-  constexpr char kNominal[] = "nominal";
-  constexpr char kStandard[] = "standard";
-  if (!replay_by_hand) Refuse(app, {"--conditions", "--require"}, "requires --replay hand");
-  if (!require.empty()) {
-    const std::size_t sign = require.find('=');
-    const std::string word = require.substr(0, sign);
-    if (word != kStandard && word != kConditionsWord) {
-      throw InputError("--require: expected standard or conditions, found \"" + word + "\"");
-    }
-    required_conditions = 1;
-    if (sign != std::string::npos) {
-      const std::string text = require.substr(sign + 1);
-      required_conditions = ParseDouble(text);
-      if (!(required_conditions && *required_conditions > 0 && *required_conditions <= 1)) {
-        throw InputError("--require: share must be above 0 and at most 1, found \"" + text + "\"");
-      }
-    }
-    if (word == kStandard && conditions.empty()) conditions = kStandard;
-    if (word == kStandard && conditions != kStandard) {
-      throw InputError("--require standard: cannot be used with --conditions " + conditions +
-                       ", expected --require conditions");
-    }
-    if (conditions.empty() || conditions == kNominal) {
-      throw InputError("--require conditions: requires --conditions FILE");
-    }
-  }
-  if (conditions.empty() || conditions == kNominal) return;
-  if (conditions == kStandard) {
-    condition_list = sim::StandardConditions();
-    return;
-  }
-  const std::string text = ReadFile(conditions);
-  conditions_sha256 = Sha256(text);
-  condition_list = sim::ReadConditions(text, conditions);
 }
 
 void ValidateOptions::Finish(const CLI::App& app) {
@@ -553,13 +306,8 @@ void ValidateOptions::Finish(const CLI::App& app) {
     throw InputError("--allow object-change: a grasp file names no object");
   }
   CheckPlans(app);
-  CheckReplay(app);
-  CheckConditions(app);
-  if (trials.count == 0) {
-    Refuse(app, {"--trials"}, "the number of trials is required, as in --trials 20");
-    Refuse(app, {"--seed"}, "requires --trials or --export-states");
-  }
-  if (!animates()) Refuse(app, {kAnimationSize}, "requires --animate or --video");
+  CheckSimulation(*this, app);
+  if (!animates()) Refuse(app, {kAnimationSize}, "requires --frames animation or --video");
   animation_crop = frame.crop && animation_width == 0;
   if (animation_width == 0) {
     animation_width = std::max(render::kMinFrameSide, frame.width / 2);

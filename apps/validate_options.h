@@ -76,8 +76,7 @@ struct ValidateOptions {
   std::string conditions;         ///< nominal, standard or a file of conditions; empty: not given
   std::string conditions_sha256;  ///< digest of that file; empty if there is none
   std::vector<sim::HandCondition> condition_list;  ///< conditions; set by Finish
-  std::string require;                             ///< standard[=SHARE]; empty: not given
-  std::optional<double> required_conditions;  ///< required share of the conditions; set by Finish
+  std::optional<double> required_conditions;       ///< required share of the conditions
   render::FrameOptions frame;
   int animation_width =
       0;  ///< width in pixels; Finish sets --size animation, or half of the frames' width
@@ -135,16 +134,14 @@ struct ValidateOptions {
   /// Folder of the results.
   /// It is `out`, or out/<plan, grasp, object or folder name>, or out/batch.
   [[nodiscard]] std::filesystem::path Folder() const;
-
- private:
   /// Refuse options and settings.
   /// @param names  names of options ("--engine") and settings (`--replay tip`).
   /// @throws InputError  if one of them is given.
   void Refuse(const CLI::App& app, std::initializer_list<const char*> names,
               const std::string& why) const;
+
+ private:
   void CheckPlans(const CLI::App& app);
-  void CheckReplay(const CLI::App& app);
-  void CheckConditions(const CLI::App& app);
 };
 
 }  // namespace regrasp::apps

@@ -453,7 +453,7 @@ std::string ConditionsRequiredText(const sim::ConditionSummary& summary) {
   const auto [share, required] =
       FormatWithLimit(100 * summary.share(), 100 * summary.required.value_or(0), kShareDigits);
   return OfAllText(summary.passed(), summary) + " conditions pass (" + share +
-         " %), --require requires " + required + " %";
+         " %), --conditions requires " + required + " %";
 }
 
 std::string FormatConditionTable(const Report& report) {

@@ -70,7 +70,7 @@ inline constexpr char kConditionsFailed[] = "conditions-failed";
 /// Return "6 of 26 conditions fail: camera (slipped), blind (object-moved), …"; empty if none does.
 [[nodiscard]] std::string ConditionsFailureText(const sim::ConditionSummary& summary);
 
-/// Return "20 of 26 conditions pass (76.9 %), --require requires 90 %".
+/// Return "20 of 26 conditions pass (76.9 %), --conditions requires 90 %".
 [[nodiscard]] std::string ConditionsRequiredText(const sim::ConditionSummary& summary);
 
 /// Return a table with one row per condition; empty without conditions.

@@ -241,7 +241,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
     {.name = "conditions-failed",
      .check = kTrials,
      .meaning = "The plan passes in the nominal replay, and a smaller share of --conditions passes "
-                "than --require requires.",
+                "than the required one (--conditions require=SHARE).",
      .causes = "The plan has too little margin for errors of sensors, friction or contacts.\n"
                "The controller depends on an accurate object pose.",
      .remedies = "Plan with a larger friction margin (plan --optimize margin).\n"

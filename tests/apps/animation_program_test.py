@@ -1,4 +1,4 @@
-"""Animations of the replay: validate --animate and --video."""
+"""Animations of the replay: validate --frames animation and --video."""
 
 import base64
 import copy
@@ -62,7 +62,7 @@ class Animation(ProgramCase):
         self.plan["goal"] = {"contacts": [
             {key: contact[key] for key in ("point", "normal")} for contact in
             self.contacts_after_a_switch()]}
-        self.assert_done(*self.of_plan("--animate", *SMALL))
+        self.assert_done(*self.of_plan("--frames", "animation", *SMALL))
         self.assertEqual(webp_size(self.replay()), (64, 48))
         durations = webp_durations(self.replay())
         self.assertGreater(len(durations), 16)
@@ -82,10 +82,10 @@ class Animation(ProgramCase):
                 if contact["finger"] not in step["release"]]
 
     def test_options_that_do_not_go_together_are_refused(self):
-        self.assert_refused(2, "--size animation: requires --animate or --video",
+        self.assert_refused(2, "--size animation: requires --frames animation or --video",
                             *self.of_grasp("--size", "animation=96x64"))
         self.assert_refused(2, "--size animation: expected WxH",
-                            *self.of_grasp("--animate", "--size", "animation=1x1"))
+                            *self.of_grasp("--frames", "animation", "--size", "animation=1x1"))
         for name in ("film.avi", "film", "-", "film.mp4.txt"):
             self.assert_refused(2, ["--video", f'"{name}"', ".mp4, .gif, .webp or .html"],
                                 *self.of_grasp("--video", name))
@@ -132,7 +132,7 @@ class Animation(ProgramCase):
             self.assert_done(*self.of_grasp("--frames", "none", *SMALL, "--video", name))
             self.assertEqual(self.replay_on_page(), (element, self.read(name)))
             self.assertIn(b"media-src data:;", self.read("result/report.html"))
-        self.assert_done(*self.of_grasp(*SMALL, "--animate", "--video", "film.mp4"))
+        self.assert_done(*self.of_grasp(*SMALL, "--frames", "animation", "--video", "film.mp4"))
         self.assertEqual(self.replay_on_page(), ("img data:image/webp", self.replay()))
         self.assert_done(*self.of_grasp("--frames", "none"))
         self.assertEqual(self.replay_on_page(), (None, b""))
@@ -140,23 +140,23 @@ class Animation(ProgramCase):
     def test_the_same_plan_gives_the_same_bytes_on_one_core_as_on_all(self):
         formats = ("gif", "mp4", "webp")
         for ending in formats:
-            self.assert_done(*self.of_grasp("--animate", *SMALL, "--video", "all." + ending))
+            self.assert_done(*self.of_grasp("--frames", "animation", *SMALL, "--video", "all." + ending))
         replay = self.replay()
         cores = os.sched_getaffinity(0)
         os.sched_setaffinity(0, {min(cores)})
         self.addCleanup(os.sched_setaffinity, 0, cores)
         for ending in formats:
-            self.assert_done(*self.of_grasp("--animate", *SMALL, "--video", "one." + ending))
+            self.assert_done(*self.of_grasp("--frames", "animation", *SMALL, "--video", "one." + ending))
             self.assertEqual(self.read("one." + ending), self.read("all." + ending))
         self.assertEqual(self.replay(), replay)
         self.assertEqual(self.read("one.webp"), replay)
 
     def test_it_is_seen_as_the_frames_are(self):
-        self.assert_done(*self.of_grasp("--animate", *SMALL))
+        self.assert_done(*self.of_grasp("--frames", "animation", *SMALL))
         usual = self.replay()
         for option in (["--view", "200,50"], ["--view", "zoom=1.3"], ["--view", "orthographic"],
                        ["--edges", "none"], ["--finger-radius", "0.004"]):
-            self.assert_done(*self.of_grasp("--animate", *SMALL, *option))
+            self.assert_done(*self.of_grasp("--frames", "animation", *SMALL, *option))
             self.assertNotEqual(self.replay(), usual, option)
 
     def test_the_last_rest_shows_what_failed(self):
@@ -175,7 +175,7 @@ class Animation(ProgramCase):
         contact["point"] = [p - 0.004 * n for p, n in zip(contact["point"], contact["normal"])]
         for plan, more in ((self.plan, ["--disturbance", "0.5"]), (bad, []), (hold, [])):
             self.plan = plan
-            done = self.run_program(*self.of_plan(*SMALL, "--animate", "--video", "bad.gif", *more))
+            done = self.run_program(*self.of_plan(*SMALL, "--frames", "animation", "--video", "bad.gif", *more))
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertTrue(any(map(is_red, gif_colours(self.read("bad.gif")))))
             if plan is hold:  # one frame is not an animation
@@ -183,7 +183,7 @@ class Animation(ProgramCase):
             self.assertEqual(webp_durations(self.replay())[-1], FAILED_REST)
 
     def test_a_terminal_is_told_how_many_frames_are_drawn(self):
-        done, shown = self.run_on_terminal(*self.of_grasp("--animate", *SMALL))
+        done, shown = self.run_on_terminal(*self.of_grasp("--frames", "animation", *SMALL))
         self.assertEqual(done.returncode, 0, shown)
         count = int(re.findall(r"drawing the animation: frame 1 of (\d+)", shown)[0])
         self.assertGreater(count, 8)
@@ -194,7 +194,7 @@ class Animation(ProgramCase):
 
     def test_the_trajectory_is_the_same_with_an_animation(self):
         self.assert_done(*self.of_grasp("--frames", "none", "--trajectory", "alone.csv"))
-        self.assert_done(*self.of_grasp("--animate", *SMALL, "--trajectory", "beside.csv"))
+        self.assert_done(*self.of_grasp("--frames", "animation", *SMALL, "--trajectory", "beside.csv"))
         self.assertEqual(self.read("alone.csv"), self.read("beside.csv"))
 
 

@@ -114,15 +114,17 @@ class Gait(ProgramCase):
                             (("--hand", ring5, "--conditions", "none.json"), "none.json: "),
                             (("--hand", ring5, "--require", "all"),
                              '--require: expected standard or conditions, found "all"'),
-                            (("--hand", ring5, "--require", "standard=2"), "--require: "),
-                            (("--hand", ring5, "--require", "conditions"),
-                             "--require conditions: requires --conditions FILE"),
+                            (("--hand", ring5, "--conditions", "standard,require=2"), "--conditions require: "),
+                            (("--hand", ring5, "--require", "standard=2"), "--conditions require: "),
+                            (("--hand", ring5, "--conditions", "gone.json", "--require", "conditions=0.5"), "gone.json: "),
+                            (("--hand", ring5, "--conditions", "require"),
+                             "--conditions require: requires standard or a file of conditions"),
                             (("--hand", ring5, "--feedback", "pose,delay=-1"), "--feedback delay: "),
                             (("--hand", ring5, "--feedback", "late"), "--feedback: "),
                             ((*points, "--replay", "tip=geometry"), "--replay tip: requires --replay hand"),
                             (("--hand", ring5, "--replay", "tip=box"), "--replay tip: "),
                             (("--hand", ring5, "--replay"), "--replay"),
-                            ((*points, "--trials", "2", "--noise", "joints=1"),
+                            ((*points, "--trials", "2,joints=1"),
                              "requires --replay hand"),
                             (("--hand", ring5, "--engine", "bullet"), "--engine: "),
                             (("--hand", ring5, "--engine", "ode", "--export-mjcf", "scene"), "--engine"),
@@ -256,10 +258,10 @@ class Gait(ProgramCase):
         self.assertIn(b'name="condition icy"', self.read("junit.xml"))
         _, other = self.validate(plan, *given, "--jobs", "1")
         self.assertEqual(other["conditions"], found)
-        done, report = self.validate(plan, *given, "--require", "conditions")
+        done, report = self.validate(plan, *given, "--conditions", "require")
         self.assertEqual((done.returncode, report["verdict"]), (1, "fail"))
         self.assertIn("conditions-failed: 1 of 2 conditions fail: icy", done.stdout)
-        done, _ = self.validate(plan, *given, "--require", "conditions=0.5")
+        done, _ = self.validate(plan, *given, "--conditions", "require=0.5")
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def check_trajectory(self, plan, by_hand):
@@ -300,8 +302,8 @@ class Gait(ProgramCase):
     def check_trials(self, plan, by_hand):
         for noise, passed in (("0", 3), ("0.3", 0)):
             done, report = self.validate(plan, *by_hand, "--frames", "none", "--trials", "3",
-                                         "--noise", f"position={noise},joints={noise}",
-                                         "--noise", "friction=0,mass=0")
+                                         "--trials", f"position={noise},joints={noise}",
+                                         "--trials", "friction=0,mass=0")
             expected = (0, "pass") if passed else (1, "fail")
             self.assertEqual((done.returncode, report["verdict"]), expected, done.stderr)
             self.assertEqual({step["verdict"] for step in report["steps"]}, {"pass"})
@@ -574,7 +576,7 @@ class Gait(ProgramCase):
         usual = self.reddish_in_frames(passing)
         for plan, index, reason in ((hold, 0, "hand-jumps"), (path, entry, "hand-jumps"),
                                     (both, entry, "off-surface")):
-            done, report = self.validate(plan, "--hand", self.hand("ring4"), "--animate")
+            done, report = self.validate(plan, "--hand", self.hand("ring4"), "--frames", "animation")
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(report["steps"][index]["reason"], reason)
             if reason == "hand-jumps":

@@ -17,7 +17,7 @@ SHORT_LINE = 120
 
 
 # Most options that `validate --help` lists, and that all programs have together.
-MOST_OF_VALIDATE, MOST_OF_ALL = 47, 146
+MOST_OF_VALIDATE, MOST_OF_ALL = 44, 142
 
 
 # An option in a list of a page.
@@ -219,13 +219,14 @@ class Help(ProgramCase):
                  "--tolerance-deg": by_hand, "--joint-noise": [*by_hand, "--trials", "2"],
                  "--reserve": [*usual["plan"][:4], "--output", "plan.json", "--hand", "no.json",
                                "--turn", "z,90"],
-                 "--animate-size": [*usual["validate"], "--animate"]}
+                 "--animate-size": [*usual["validate"], "--frames", "animation"]}
         values = {"--spanning": "uniform", "--align": "slide",
                   "--tip": "geometry", "--animate-size": "64x64", "--reserve": "none",
                   "--out": "out", "--min-pass-rate": "0.5", "--min-quality": "0.5",
                   "--sheet-width": "500", "--width": "85"}
         for name in ("--position-noise", "--friction-error", "--mass-error"):
             other[name], values[name] = [*usual["validate"], "--trials", "2"], "0.5"
+        other["--noise"], values["--noise"] = [*usual["validate"], "--trials", "2"], "mass=0.1"
         other["--min-pass-rate"] = [*usual["validate"], "--trials", "2"]
         flags = ("--fresh",)
         rows = self.old_names()

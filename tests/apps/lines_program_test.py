@@ -453,9 +453,11 @@ class Lines(ProgramCase):
         self.assert_refused(2, "gone.jsonl: no such file", *one, "--batch", "gone.jsonl", "--output", "o")
         self.plan("plans.jsonl")
         plans = ("--object", self.model(""), "--plan", "plans.jsonl")
-        for option in (["--junit", "j"], ["--json", "-"], ["--animate"], ["--trajectory", "t"]):
+        for option in (["--junit", "j"], ["--json", "-"], ["--trajectory", "t"]):
             self.assert_refused(2, f"{option[0]}: cannot be used with a file of plans", *plans, *option,
                                 program="validate")
+        self.assert_refused(2, "--frames animation: cannot be used with a file of plans", *plans, "--frames",
+                            "animation", program="validate")
         self.write_json("plan.json", self.lines("plans.jsonl")[1])
         self.assert_refused(2, "--shard: requires a file of plans", "--object", self.model(""),
                             "--plan", "plan.json", "--shard", "1/2", program="validate")

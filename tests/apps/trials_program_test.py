@@ -24,7 +24,7 @@ class Trials(ProgramCase):
 
     def test_without_noise_all_trials_pass(self):
         done, report = self.run_trials(
-            "--trials", "3", "--noise", "position=0,friction=0,mass=0")
+            "--trials", "3,position=0,friction=0,mass=0")
         trials = report["trials"]
         self.assertEqual((trials["count"], trials["passed"], trials["share"]), (3, 3, 1))
         self.assertEqual((trials["reasons"], trials["steps"]), ({}, []))
@@ -34,7 +34,7 @@ class Trials(ProgramCase):
         self.assertIn("trials: 3 of 3 pass: 100 %", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "verdict: pass in 3 of 3 trials")
 
-    NOISE = ("--trials", "12", "--seed", "5", "--noise", "position=0.1,friction=0.6")
+    NOISE = ("--trials", "12,position=0.1,friction=0.6", "--seed", "5")
 
     def test_with_much_noise_some_fail_and_with_them_the_plan(self):
         done, report = self.run_trials(*self.NOISE, code=1)
@@ -119,14 +119,14 @@ class Trials(ProgramCase):
         self.assertNotIn("trials", self.report())
 
     def test_refuses_trials_that_make_no_sense(self):
-        for option, value in [("--trials", "0"), ("--trials", "few"), ("--noise", "position=-1"),
-                              ("--noise", "friction=1.5"), ("--noise", "mass=nan"),
+        for option, value in [("--trials", "0"), ("--trials", "few"), ("--trials", "position=-1"),
+                              ("--trials", "friction=1.5"), ("--trials", "mass=nan"),
                               ("--seed", "x"), ("--trials", "min-pass-rate=0"),
                               ("--trials", "min-pass-rate=1.1"), ("--trials", "min-pass-rate=nan")]:
             with self.subTest(option=option, value=value):
                 more = [] if option == "--trials" else ["--trials", "2"]
                 self.assert_refused(2, option, *self.arguments(*more, option, value))
-        self.assert_refused(2, "--trials", *self.arguments("--noise", "position=0.1"))
+        self.assert_refused(2, "--trials", *self.arguments("--trials", "position=0.1"))
         self.assert_refused(2, "--trials", *self.arguments("--trials", "min-pass-rate=0.5"))
 
     def test_aligns_are_imitated_or_slid_as_asked(self):

@@ -125,13 +125,13 @@ class Validate(ProgramCase):
         self.assertEqual(done.stderr, "")
 
     def test_both_protocols_are_told_apart_and_the_adapted_one_decides(self):
-        done, report = self.assert_passes("--frames", "none", protocol="both")
+        done, report = self.assert_passes("--frames", "none", disturbance="both")
         self.assertIn("fixed_squeeze", done.stdout)
         for step in report["steps"]:
             self.assertEqual(set(step["protocols"]), {"adapted", "fixed"})
             self.assertEqual(step["simulation"]["motion_m"],
                              step["protocols"]["adapted"]["motion_m"])
-        done, report = self.assert_passes("--frames", "none", protocol="both", disturbance="0.06")
+        done, report = self.assert_passes("--frames", "none", disturbance="both,0.06")
         disagreements = [step for step in report["steps"] if step["cause"]]
         self.assertTrue(disagreements)
         for step in disagreements:
@@ -141,11 +141,12 @@ class Validate(ProgramCase):
         self.assertIn("Likely cause", self.page_text())
         first = disagreements[0]["index"]
         failed = self.assert_fails(first, disagreements[0]["protocols"]["fixed"]["reason"],
-                                   protocol="fixed", disturbance="0.06")
+                                   disturbance="fixed,0.06")
         self.assertEqual(set(failed["steps"][first]["protocols"]), {"fixed"})
         self.assertNotIn("fixed_squeeze", self.assert_passes("--frames", "none")[0].stdout)
-        self.refuse('--protocol: expected one of adapted, fixed, both, found "loose"',
-                    protocol="loose")
+        self.refuse("--disturbance: ", disturbance="loose")
+        self.refuse("--disturbance: found adapted and fixed, expected one of them",
+                    disturbance="adapted,0.01,fixed")
 
     def test_a_second_engine_judges_the_same_plan(self):
         done, report = self.assert_passes("--frames", "none", engine="ode")

@@ -55,7 +55,7 @@ TEST(ConditionTableTest, ConditionsAreInformationUnlessTheyAreRequired) {
   const auto failure = DescribeFailure(report);
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->headline(), "conditions-failed: 1 of 3 conditions fail: icy (slipped)");
-  EXPECT_EQ(failure->why, "2 of 3 conditions pass (66.7 %), --require requires 70 %");
+  EXPECT_EQ(failure->why, "2 of 3 conditions pass (66.7 %), --conditions requires 70 %");
   const Json json = ReportJson(report);
   EXPECT_EQ(json["verdict"], "fail");
   EXPECT_EQ(json["conditions"]["why"], failure->why);

@@ -253,7 +253,7 @@ class SchemaTest(unittest.TestCase):
             # A shake that adapted forces resist and a fixed squeeze does not.
             self.run_program(
                 "validate", "--object", cube, "--plan", plan, "--output", out, "--frames", "none",
-                "--protocol", "both", "--disturbance", "limits,0.08",
+                "--disturbance", "both,limits,0.08",
             )
             report = validate_schema.load(out / "report.json")
         causes = [index for index, step in enumerate(report["steps"]) if step["cause"]]
