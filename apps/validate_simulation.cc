@@ -38,14 +38,15 @@ void AddDisturbance(CLI::App& app, ValidateOptions& options) {
       .Word("fixed", response(sim::Protocol::kFixed))
       .Word("both", response(sim::Protocol::kBoth))
       .Word("limits", [&options] { options.replay.resisted_wrench = true; })
-      .AddTo(app, "RHO[,adapted|fixed|both][,limits]",
-             "Size of the disturbance test and response of the fingers. Force over grasp force, and "
-             "torque over grasp force times half the diameter [default: 0.01,adapted]\n"
-             "adapted: forces planned per direction\n"
-             "fixed: constant forces and servo stiffness\n"
-             "both: adapted decides\n"
-             "limits: also find the largest resisted force and torque in every direction, about "
-             "ten times as slow");
+      .AddTo(
+          app, "RHO[,adapted|fixed|both][,limits]",
+          "Size of the disturbance test and response of the fingers. Force over grasp force, and "
+          "torque over grasp force times half the diameter [default: 0.01,adapted]\n"
+          "adapted: forces planned per direction\n"
+          "fixed: constant forces and servo stiffness\n"
+          "both: adapted decides\n"
+          "limits: also find the largest resisted force and torque in every direction, about "
+          "ten times as slow");
 }
 
 /// Parse a tolerance: "0.001" (object diameters), "2mm" or "5deg".
@@ -211,7 +212,8 @@ void CheckResponse(const ValidateOptions& options) {
 }
 
 void CheckReplay(ValidateOptions& options, const CLI::App& app) {
-  if (!options.settings.contains("--replay points") && !options.settings.contains("--replay hand")) {
+  if (!options.settings.contains("--replay points") &&
+      !options.settings.contains("--replay hand")) {
     options.replay_by_hand = !options.hand.empty();
   }
   if (options.settings.contains("--replay points") && options.settings.contains("--replay hand")) {
@@ -220,19 +222,22 @@ void CheckReplay(ValidateOptions& options, const CLI::App& app) {
   CheckResponse(options);
   if (options.replay_by_hand) {
     if (options.hand.empty()) throw InputError("--replay hand: requires --hand");
-    if (options.replay.resisted_wrench) throw InputError("--disturbance limits: requires --replay points");
-    options.Refuse(app, {"--disturbance adapted", "--disturbance fixed", "--disturbance both", "--tolerance diameters", "--replay align", "--finger-radius"},
-           "requires --replay points");
+    if (options.replay.resisted_wrench)
+      throw InputError("--disturbance limits: requires --replay points");
+    options.Refuse(app,
+                   {"--disturbance adapted", "--disturbance fixed", "--disturbance both",
+                    "--tolerance diameters", "--replay align", "--finger-radius"},
+                   "requires --replay points");
     if (options.replay.engine == sim::EngineChoice::kOde) {
       options.Refuse(app, {"--trajectory", "--export-mjcf"}, "requires --engine mujoco or both");
     }
     options.trials.joint_noise = Radians(options.joint_noise_deg);
     return;
   }
-  options.Refuse(app,
-         {"--tolerance mm", "--tolerance deg", "--feedback", "--replay feedback", "--replay tip",
-          "--trials joints"},
-         "requires --replay hand");
+  for (const char* setting : {"--tolerance mm", "--tolerance deg", "--feedback", "--replay tip",
+                              "--replay feedback", "--trials joints"}) {
+    options.Refuse(app, {setting}, "requires --replay hand");
+  }
   if (options.trajectory_is_npz()) {
     throw InputError("--trajectory: " + options.trajectory + ": NPZ format requires --replay hand");
   }
