@@ -98,8 +98,9 @@ void PlanProgram::AddSearch(CLI::App& app) {
        {"regions", planning::Objective::kRegions}},
       "Objective [default: steps]\n"
       "steps: fewest steps, then largest margin of the weakest grasp\n"
-      "margin: largest margin, with at most two more steps; with --hand the largest tolerance "
-      "margin in simulation\n"
+      "margin: largest margin, with at most two more steps; with --hand the fewest "
+      "failures under validate --conditions standard, then the largest tolerance margin in "
+      "simulation\n"
       "travel: fewest steps, then least fingertip travel\n"
       "regions (planner contour): largest independent contact regions");
   app.add_flag("--explain", explain,
@@ -159,9 +160,10 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
       throw InputError("--hand: requires a solid, found a planar object");
     }
     planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
-    task.simulate =
-        sim::ExecutionSimulator(*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object),
-                                sim::PlanningConditions(hand.robustness.conditions));
+    const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.object);
+    task.simulate = sim::ExecutionSimulator(*hand_file, solid,
+                                            sim::PlanningConditions(hand.robustness.conditions));
+    task.rate = sim::ExecutionRater(*hand_file, solid);
     hand.AskFor(task);
     if (continued) {
       CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});

@@ -81,6 +81,7 @@ std::vector<plan::NamedGoal> GoalsOf(const HandArguments& given, const PythonHan
 
 planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
                             const HandArguments& given) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
   return {.hand = &hand.file.hand,
           .scale = object.scale,
           .robustness = given.robustness,
@@ -90,9 +91,10 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .goal = GoalOf(given),
           .goals = GoalsOf(given, hand),
           .simulate = sim::ExecutionSimulator(
-              hand.file, dynamic_cast<const object::Polyhedron&>(*object.file.object),
+              hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
-                                                        : sim::PlanningRobustness::kNominal))};
+                                                        : sim::PlanningRobustness::kNominal)),
+          .rate = sim::ExecutionRater(hand.file, solid)};
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,

@@ -145,6 +145,17 @@ std::string GoalsText(const std::vector<plan::GoalMark>& goals) {
   return text;
 }
 
+/// Example: "the plan passes 24 of 26 standard conditions and fails under torsion-5mm,
+/// joints-1deg".
+std::string RatingText(const planning::RobustnessRating& rating) {
+  std::string text = "the plan passes " + std::to_string(rating.passed()) + " of " +
+                     std::to_string(rating.conditions) + " standard conditions";
+  for (const std::string& name : rating.failed) {
+    text += (&name == &rating.failed.front() ? " and fails under " : ", ") + name;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ExplainGait(const GaitRequest& request) {
@@ -230,6 +241,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
                            FormatShort(std::floor(100 * found.execution->tolerance_margin)) +
                            " % of the replay's limits");
+    if (found.execution->rating) result.notes.push_back(RatingText(*found.execution->rating));
   } else if (found.execution) {
     const bool is_failure = !found.execution->is_cut_short;
     result.warnings.push_back(

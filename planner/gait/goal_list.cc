@@ -47,6 +47,14 @@ auto SimulatorAfter(const GaitRequest& request, const plan::Plan& before,
   };
 }
 
+/// Rate a plan together with the steps before it.
+auto RaterAfter(const GaitRequest& request, const plan::Plan& before, const plan::NamedGoal& goal) {
+  return [rate = request.rate, before, goal](const plan::Plan& plan, int most_failures,
+                                             const Deadline& deadline) {
+    return rate(Joined(before, plan, goal), most_failures, deadline);
+  };
+}
+
 class GoalListSearch {
  public:
   explicit GoalListSearch(const GaitRequest& request) : request_(request) {}
@@ -106,6 +114,7 @@ class GoalListSearch {
     if (request.simulate) {
       request.simulate = SimulatorAfter(request_, *before.plan, request_.goals[goal]);
     }
+    if (request.rate) request.rate = RaterAfter(request_, *before.plan, request_.goals[goal]);
     // No plan executes after a part that does not.
     if (before.execution && !before.execution->is_whole)
       request.robustness = RobustnessLevel::kNone;

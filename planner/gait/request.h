@@ -27,8 +27,9 @@ struct GaitRequest : planning::InHandTask {
   grasp::Grasp goal_grasp;   ///< grasp in object units; empty: any grasp
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
-  /// Select the executable gait with the largest tolerance margin
-  /// (planning::ExecutionResult::tolerance_margin) instead of the first one. Requires a simulator.
+  /// Select the executable gait that fails under the fewest conditions (`rate`), among these the
+  /// one with the largest tolerance margin (planning::ExecutionResult::tolerance_margin), instead
+  /// of the first one. Requires a simulator.
   bool seeks_most_margin = false;
   Deadline deadline = {};
   int jobs = 1;  ///< number of parallel searches if plans are simulated, ≥ 1

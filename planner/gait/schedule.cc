@@ -79,6 +79,7 @@ void Bound(GaitRequest& request, const Budget& budget) {
 }
 
 constexpr std::string_view kSimulating = "simulating a plan";
+constexpr std::string_view kRating = "simulating a plan under several conditions";
 
 /// Part of an attempt that is simulated.
 enum class Simulate {
@@ -158,15 +159,15 @@ class AttemptRunner {
   [[nodiscard]] bool is_unknown() const { return is_unknown_; }
 
   /// Return the first executing gait; no gait if none executes.
-  /// If requested, the first one with the largest tolerance margin.
+  /// If requested, the first one that fails under the fewest conditions, among these the one with
+  /// the largest tolerance margin.
   [[nodiscard]] SimulatedGait BestExecuted() {
     Outcome* best = nullptr;
     ForEachOutcome([&](Outcome& outcome) {
       if (!outcome.execution || !outcome.execution->is_whole) return;
-      const bool is_better =
-          best == nullptr || (request_.seeks_most_margin && outcome.execution->tolerance_margin >
-                                                                best->execution->tolerance_margin);
-      if (is_better) best = &outcome;
+      if (best == nullptr || (request_.seeks_most_margin && outcome.IsMoreRobustThan(*best))) {
+        best = &outcome;
+      }
     });
     if (best == nullptr) return {};
     return {std::move(best->found), std::move(best->execution)};
@@ -217,6 +218,16 @@ class AttemptRunner {
       return (execution->is_held ? 1.0 + execution->steps : 0.0) /
              (1.0 + static_cast<double>(steps));
     }
+    /// Return the number of conditions under which the gait fails; the largest number if unrated.
+    [[nodiscard]] int Failures() const {
+      return execution->rating ? static_cast<int>(execution->rating->failed.size())
+                               : std::numeric_limits<int>::max();
+    }
+    /// Compare two gaits that execute.
+    [[nodiscard]] bool IsMoreRobustThan(const Outcome& other) const {
+      if (Failures() != other.Failures()) return Failures() < other.Failures();
+      return execution->tolerance_margin > other.execution->tolerance_margin;
+    }
   };
 
   void RunSchedule(std::size_t schedule, const Deadline& until) {
@@ -249,7 +260,21 @@ class AttemptRunner {
     outcome.steps = plan.steps.size();
     outcome.execution = request_.simulate(plan, deadline);
     if (!outcome.execution) is_unknown_ = is_over_ = true;
+    if (request_.seeks_most_margin && request_.rate) Rate(plan, deadline, outcome);
     return outcome;
+  }
+
+  /// Rate a gait that executes, unless it fails under more conditions than another gait.
+  /// The gait with the fewest failures is always rated, so the choice does not depend on the number
+  /// of threads.
+  void Rate(const plan::Plan& plan, const Deadline& deadline, Outcome& outcome) {
+    if (!outcome.execution || !outcome.execution->is_whole) return;
+    Report(kRating);
+    outcome.execution->rating = request_.rate(plan, fewest_failures_, deadline);
+    const int failures = outcome.Failures();
+    int fewest = fewest_failures_;
+    while (failures < fewest && !fewest_failures_.compare_exchange_weak(fewest, failures)) {
+    }
   }
 
   void Report(std::string_view text) {
@@ -279,6 +304,7 @@ class AttemptRunner {
   std::vector<Schedule> schedules_;
   std::vector<std::vector<Outcome>> outcomes_;  ///< outcomes, by schedule
   std::atomic<std::size_t> last_schedule_;
+  std::atomic<int> fewest_failures_ = std::numeric_limits<int>::max();  ///< of a rated gait
   std::atomic<bool> is_over_ = false;
   std::atomic<bool> is_unknown_ = false;
   std::mutex reporting_;

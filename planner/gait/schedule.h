@@ -117,8 +117,9 @@ struct SimulatedGait {
 /// Search a gait that executes in simulation (planning::InHandTask::simulate).
 /// Runs the schedules of attempts with varying margins and random streams. If none executes and
 /// robustness is only preferred, searches a gait without margins. If the simulator gives no result,
-/// the search runs without simulation. With `seeks_most_margin`, all attempts run, and the first
-/// gait with the largest tolerance margin is selected.
+/// the search runs without simulation. With `seeks_most_margin`, all attempts run. The
+/// result is the gait that fails under the fewest conditions (planning::InHandTask::rate); among
+/// equals, the first one with the largest tolerance margin.
 /// @param contacts  contacts by number, in object units.
 /// @returns a gait that executes; if robustness is only preferred, possibly one that does not.
 [[nodiscard]] SimulatedGait FindExecutableGait(const GaitRequest& request,

@@ -38,6 +38,14 @@ enum class RobustnessLevel {
   kRequired,   ///< margins required
 };
 
+/// Execution of a plan under several conditions, such as sensor errors or other friction.
+struct RobustnessRating {
+  int conditions = 0;                    ///< number of conditions
+  std::vector<std::string> failed = {};  ///< names of the conditions under which the plan fails
+
+  [[nodiscard]] int passed() const { return conditions - static_cast<int>(failed.size()); }
+};
+
 /// How far a hand executes a plan in simulation.
 struct ExecutionResult {
   bool is_held = false;   ///< whether the start grasp is held before the first step
@@ -48,6 +56,7 @@ struct ExecutionResult {
   bool is_cut_short = false;  ///< whether the deadline passed before a step failed
   plan::Reason reason = {};   ///< reason of the failed step; the first reason (none) if none failed
   std::string detail = {};    ///< description of the failure: finger or link, and by how much
+  std::optional<RobustnessRating> rating = {};  ///< of a whole execution, if it was rated
 };
 
 /// An object task for a hand, in addition to start and goal grasp: rotate the object, or move it to
@@ -76,6 +85,12 @@ struct InHandTask {
   /// Returns nullopt if the hand has no actuators. Called only if `robustness` is not kNone, by as
   /// many threads as the request has jobs. Empty: plans are not simulated.
   std::function<std::optional<ExecutionResult>(const plan::Plan&, const Deadline&)> simulate = {};
+  /// Rates a plan that executes (sim/actuation/simulate_execution.h), called like `simulate` if the
+  /// plan with the largest margin is requested. Returns nullopt if more than `most_failures`
+  /// conditions fail or the deadline passes. Empty: plans are not rated.
+  std::function<std::optional<RobustnessRating>(const plan::Plan&, int most_failures,
+                                                const Deadline&)>
+      rate = {};
 };
 
 }  // namespace regrasp::planning

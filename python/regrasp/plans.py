@@ -162,6 +162,7 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
         friction_angle_deg: friction angle, degrees.
         planner: "auto" or the name of a planner, as on the command line.
         optimize: objective: "steps", "margin" or "travel"; "regions" for polygons.
+            With a hand, "margin" selects the plan that fails under the fewest standard conditions.
         contacts: number of contact points of the planner "roadmap"; default: chosen by the planner.
         clusters: number of clusters of these points; default: chosen by the planner.
         seed: seed of all random choices.

@@ -1,9 +1,11 @@
 #include "sim/actuation/simulate_execution.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "sim/actuation/condition_replays.h"
 #include "sim/actuation/conditions.h"
 #include "sim/actuation/hand_replay.h"
+#include "sim/actuation/tip_geometry.h"
 
 namespace regrasp::sim {
 namespace {
@@ -61,6 +64,49 @@ planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan&
   return carried;
 }
 
+/// A standard condition with the options of its replay.
+struct RatedCondition {
+  std::string name;
+  HandReplayOptions options;
+};
+
+/// Return the standard conditions that exist for a hand, in the order of their rates of failure of
+/// 111 plans (bench/hand_conditions.md).
+std::vector<RatedCondition> RatedConditions(const kinematics::HandFile& file) {
+  constexpr std::array kOftenFailed = {"default-contacts", "realistic", "torsion-5mm",
+                                       "joints-1deg",      "start-off", "joints-0.5deg",
+                                       "friction-minus-20"};
+  std::vector<RatedCondition> conditions;
+  for (const HandCondition& condition : StandardConditions()) {
+    RatedCondition rated{condition.name, OptionsUnder(condition, {})};
+    rated.options.to_end = false;
+    try {
+      static_cast<void>(TipShapesOf(file, rated.options.tip));
+      conditions.push_back(std::move(rated));
+    } catch (const InputError&) {
+      // The hand has no geometry for this condition.
+    }
+  }
+  std::ranges::stable_sort(conditions, {}, [&](const RatedCondition& condition) {
+    return std::ranges::find(kOftenFailed, condition.name) - kOftenFailed.begin();
+  });
+  return conditions;
+}
+
+/// Return whether a hand executes a plan under a condition; nullopt if the deadline passes before.
+std::optional<bool> Executes(const kinematics::HandFile& file, const object::Polyhedron& solid,
+                             const plan::Plan& projected, const HandReplayOptions& options,
+                             const Deadline& deadline) {
+  try {
+    const ReplayResult replay = HandReplays(file, solid, options).Replay(projected, deadline);
+    const planning::ExecutionResult found = ResultOf(replay, projected, options.tolerance);
+    if (found.is_cut_short) return std::nullopt;
+    return found.is_whole;
+  } catch (const std::invalid_argument&) {
+    return false;  // the object is thrown about
+  }
+}
+
 }  // namespace
 
 std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness) {
@@ -102,6 +148,25 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
     } catch (const InputError&) {
       return std::nullopt;
     }
+  };
+}
+
+std::function<std::optional<planning::RobustnessRating>(const plan::Plan&, int, const Deadline&)>
+ExecutionRater(kinematics::HandFile file, const object::Polyhedron& solid) {
+  const auto conditions = std::make_shared<std::vector<RatedCondition>>(RatedConditions(file));
+  return [file = std::move(file), conditions, &solid](
+             const plan::Plan& plan, int most_failures,
+             const Deadline& deadline) -> std::optional<planning::RobustnessRating> {
+    const plan::Plan projected = plan::ProjectPlan(solid, plan);
+    planning::RobustnessRating rating{.conditions = static_cast<int>(conditions->size())};
+    for (const RatedCondition& condition : *conditions) {
+      const std::optional<bool> executes =
+          Executes(file, solid, projected, condition.options, deadline);
+      if (!executes) return std::nullopt;
+      if (!*executes) rating.failed.push_back(condition.name);
+      if (std::ssize(rating.failed) > most_failures) return std::nullopt;
+    }
+    return rating;
   };
 }
 

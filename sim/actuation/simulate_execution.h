@@ -34,4 +34,13 @@ enum class PlanningRobustness {
 ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
                    std::vector<HandReplayOptions> conditions = {HandReplayOptions()});
 
+/// Return a function that rates plans for planners (planning::InHandTask::rate).
+/// It replays a plan under the standard conditions that exist for the hand, for an object with the
+/// density of water. The conditions that fail most often are first, and a replay ends at its first
+/// failed step.
+/// @param solid  object; must outlive the function.
+[[nodiscard]] std::function<std::optional<planning::RobustnessRating>(
+    const plan::Plan&, int most_failures, const Deadline&)>
+ExecutionRater(kinematics::HandFile file, const object::Polyhedron& solid);
+
 }  // namespace regrasp::sim

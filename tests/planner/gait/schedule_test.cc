@@ -228,6 +228,48 @@ TEST(ScheduleTest, SelectsTheExecutableGaitWithTheLargestToleranceMarginIfReques
   EXPECT_EQ(margin_of(best), most);
 }
 
+/// The gait with the smallest margin fails under the fewest conditions.
+TEST(ScheduleTest, SelectsTheGaitThatFailsUnderTheFewestConditions) {
+  GaitRequest request = RequestFor("cube", 0.8, 120);
+  request.simulate = [&](const plan::Plan& plan, const Deadline&) {
+    return std::optional(
+        planning::ExecutionResult{true, static_cast<int>(plan.steps.size()), true,
+                                  1.0 / static_cast<double>(1 + plan.steps.size())});
+  };
+  const auto steps = [&] {
+    const GaitResult found = FindGait(request);
+    EXPECT_TRUE(found.gait) << found.message;
+    return static_cast<std::size_t>(found.execution->steps);
+  };
+  request.seeks_most_margin = true;
+  // Equal ratings: the margin decides.
+  std::set<std::size_t> sizes;  // numbers of steps of all candidates
+  request.rate = [&](const plan::Plan& plan, int, const Deadline&) {
+    sizes.insert(plan.steps.size());
+    return std::optional(planning::RobustnessRating{.conditions = 100});
+  };
+  const std::size_t shortest = steps();
+  EXPECT_EQ(shortest, *sizes.begin());
+  ASSERT_GT(sizes.size(), 1U);
+  const std::size_t longest = *sizes.rbegin();
+  request.rate = [&](const plan::Plan& plan, int most_failures,
+                     const Deadline&) -> std::optional<planning::RobustnessRating> {
+    planning::RobustnessRating rating{.conditions = 100};
+    rating.failed.resize(longest - plan.steps.size());
+    if (std::ssize(rating.failed) > most_failures) return std::nullopt;
+    return rating;
+  };
+  for (const int jobs : {1, 4}) {
+    request.jobs = jobs;
+    EXPECT_EQ(steps(), longest) << jobs;
+  }
+  // Without ratings the margin decides.
+  request.rate = [](const plan::Plan&, int, const Deadline&) {
+    return std::optional<planning::RobustnessRating>();
+  };
+  EXPECT_EQ(steps(), shortest);
+}
+
 TEST(ScheduleTest, NoPlanIsSimulatedTwice) {
   GaitRequest request = RequestFor("cube", 0.8, 120);
   FakeHand hand{.executes = [](const plan::Plan&, std::size_t) { return false; }};

@@ -2,16 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "planner/base/file.h"
 #include "planner/base/in_blocks.h"
 #include "planner/base/number.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
+#include "sim/actuation/condition_replays.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -167,6 +172,33 @@ TEST_F(ExecutionSimulatorTest, ThePlanWithTheLargestMarginHasAtLeastThatOfTheFir
   EXPECT_GT(first, 0);
   EXPECT_GT(most, first);
   EXPECT_LT(most, 1);
+}
+
+/// A second route to the same list: the replays of validate --conditions standard.
+TEST_F(ExecutionSimulatorTest, RatesAPlanAsTheStandardConditionsDo) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  const auto rate = ExecutionRater(hand_, cube_);
+  const auto rating = rate(*found.plan, 100, {});
+  ASSERT_TRUE(rating);
+  const ConditionSummary summary = RunConditions(
+      hand_, cube_, plan::ProjectPlan(cube_, *found.plan), {}, StandardConditions(), 2);
+  std::set<std::string> failed;
+  for (const ConditionResult& result : summary.results) {
+    if (result.applies && !result.passed()) failed.insert(result.condition.name);
+  }
+  EXPECT_EQ(rating->conditions, summary.applicable());
+  EXPECT_EQ(std::set<std::string>(rating->failed.begin(), rating->failed.end()), failed);
+  ASSERT_FALSE(failed.empty());
+  EXPECT_LT(failed.size(), 10U);
+  // Stops at the first failure above the limit, and at the deadline.
+  EXPECT_FALSE(rate(*found.plan, static_cast<int>(failed.size()) - 1, {}));
+  EXPECT_TRUE(rate(*found.plan, static_cast<int>(failed.size()), {}));
+  EXPECT_FALSE(rate(*found.plan, 100, DeadlineAfter(std::chrono::steady_clock::now(), 0)));
+  // Negative control: a plan for little friction fails under most conditions.
+  plan::Plan slippery = *found.plan;
+  slippery.friction_angle = std::atan(0.1);
+  EXPECT_GT(rate(slippery, 100, {})->failed.size(), failed.size() + 5);
 }
 
 TEST_F(ExecutionSimulatorTest, OfAHandWithoutActuatorsItCanNotTell) {
