@@ -7,7 +7,6 @@
 #include "apps/commands.h"
 #include "apps/graph_text.h"
 #include "apps/help.h"
-#include "apps/list_option.h"
 #include "apps/output_files.h"
 #include "apps/planner_options.h"
 #include "apps/program.h"
@@ -26,14 +25,9 @@ using namespace regrasp;
 
 constexpr char kProgram[] = "graph";
 
-/// More focus points take minutes.
-constexpr int kMostSamples = 10'000'000;
-
 struct GraphProgram {
   PlannerOptions common;
   std::string json;
-  int focus_points = 0;
-  bool compare = false;
 
   void AddTo(CLI::App& app);
   int Run() const;
@@ -49,13 +43,6 @@ struct GraphProgram {
 
 void GraphProgram::AddTo(CLI::App& app) {
   common.AddTo(app, PlannerOptions::Purpose::kGraph);
-  ListOption("--sampling")
-      .Values("the number of focus points", {IntegerParser(focus_points, 1, kMostSamples)})
-      .Word("compare", [this] { compare = true; })
-      .AddTo(app, "N[,compare]",
-             "Find focus cells with N random focus points. They are drawn in a box that contains "
-             "all cells (planner polyhedron only). compare: also print which share of the graph "
-             "they find");
   BeginGroup(app, "Output");
   app.add_option("--json", json, "Write the counts as JSON. - is standard output")
       ->type_name("FILE");
@@ -67,10 +54,10 @@ void GraphProgram::AddTo(CLI::App& app) {
 }
 
 void GraphProgram::CheckUsage() const {
-  if (compare && focus_points == 0) {
+  if (common.compare && common.focus_points == 0) {
     throw InputError(
-        "--sampling compare: requires the number of focus points, as in --sampling "
-        "1000,compare");
+        "--planner compare: requires the setting sampling, as in --planner "
+        "polyhedron,sampling=1000,compare");
   }
   if (!common.fallback && common.queries == 0) {
     throw InputError("--planner fallback: requires the setting queries");
@@ -106,7 +93,7 @@ std::string GraphProgram::Title(const planning::Planner& planner,
   }
   if (summary.clusters > 0) title += ", " + std::to_string(summary.clusters) + " clusters";
   if (summary.sampling_share) {
-    title += ", " + std::to_string(focus_points) + " focus points";
+    title += ", " + std::to_string(common.focus_points) + " focus points";
   }
   return title;
 }
@@ -119,7 +106,7 @@ int GraphProgram::Run() const {
   if (given_points) request.given_points = &*given_points;
   request.for_graph = true;
   request.parameters.Edit<roadmap::RoadmapParameters>().queries = common.queries;
-  request.parameters.Edit<polyhedron::PolyhedronParameters>().focus_points = focus_points;
+  request.parameters.Edit<polyhedron::PolyhedronParameters>().focus_points = common.focus_points;
   const planning::Planner& planner = common.PlannerFor(request);
   const planning::GraphSummary summary = Summarize(planner, request);
   const std::string text = FormatJson(GraphJson(summary, request.criteria.friction_angle));
@@ -129,7 +116,7 @@ int GraphProgram::Run() const {
   }
   if (!json.empty()) WriteFile(json, text);
   std::cout << GraphTable(summary, Title(planner, summary, object.file));
-  if (compare) std::cout << ShareText(*summary.sampling_share);
+  if (common.compare) std::cout << ShareText(*summary.sampling_share);
   return kExitDone;
 }
 

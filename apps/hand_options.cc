@@ -24,6 +24,7 @@ constexpr double kLargestClearance_m = 0.05;
 constexpr double kLargestNormError = 1e-3;
 constexpr double kFarthest_m = 10;
 constexpr double kShortestDirection = 1e-9;
+constexpr char kAnyGravity[] = "any";
 
 /// Replace commas by spaces; lists are accepted with both.
 std::string SpacesForCommas(std::string text) {
@@ -113,6 +114,20 @@ std::optional<Eigen::Vector3d> NextDirection(std::istringstream& words,
   return vector;
 }
 
+/// Parse the direction of --gravity. @returns the unit vector against it.
+Eigen::Vector3d ParseGravity(const std::string& text) {
+  std::istringstream words(SpacesForCommas(text));
+  const auto down = NextDirection(words, std::nullopt);
+  std::string rest;
+  if (!down || words >> rest || down->norm() < kShortestDirection) {
+    throw InputError(
+        "--gravity: expected a direction in the palm frame or any, as in -z, +x or 0,1,-1, found "
+        "\"" +
+        text + "\"");
+  }
+  return -down->normalized();
+}
+
 /// Parse "+y,up,30".
 plan::GoalSet ParseFacing(const std::string& text, const Eigen::Vector3d& up) {
   std::istringstream words(SpacesForCommas(text));
@@ -193,6 +208,12 @@ void HandOptions::AddTo(CLI::App& app) {
                  "File of named goals in JSON. The plan reaches them one after the other and marks "
                  "the step of each; `validate` checks every marked goal")
       ->type_name("FILE");
+  app.add_option("--gravity", gravity,
+                 "Direction of gravity in the palm frame. An axis x, y or z with an optional sign, "
+                 "or three numbers. any: the direction of the hand file, otherwise the first of "
+                 "the six axes with a plan. The plan records the direction. A leading minus sign "
+                 "requires --gravity=-z [default: opposite to `up` of the hand file]")
+      ->type_name("DIRECTION|any");
   app.add_option("--continue", continue_plan,
                  "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")
@@ -225,6 +246,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
                                       {"--goal-facing", goal_facing},
                                       {"--goal-tolerance", goal_tolerance},
                                       {"--goals", goals},
+                                      {"--gravity", gravity},
                                       {"--continue", continue_plan}}) {
     if (given() || value.empty()) continue;
     throw InputError(std::string(option) + " requires --hand");
@@ -253,7 +275,14 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
     if (goals.empty() || value.empty()) continue;
     throw InputError(std::string("--goals: cannot be used with ") + option);
   }
-  for (const auto& [option, value] : {std::pair("--start", start), {"--start-pose", start_pose}}) {
+  for (const auto& [option, value] :
+       {std::pair("--goal-facing", goal_facing), {"--goals", goals}}) {
+    if (gravity != kAnyGravity || value.empty()) continue;
+    throw InputError(std::string("--gravity any: cannot be used with ") + option +
+                     ", which depends on the direction of gravity");
+  }
+  for (const auto& [option, value] :
+       {std::pair("--start", start), {"--start-pose", start_pose}, {"--gravity", gravity}}) {
     if (continue_plan.empty() || value.empty()) continue;
     throw InputError(std::string("--continue: cannot be used with ") + option);
   }
@@ -274,11 +303,15 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
     task.goal = plan::GoalSet(plan::PoseGoal{ParsePose("--goal-pose", goal_pose),
                                              tolerance.value_or(plan::PoseTolerance())});
   }
-  if (!goal_facing.empty()) {
-    const Eigen::Vector3d up = task.hand == nullptr ? Eigen::Vector3d::UnitZ() : task.hand->up;
-    task.goal = ParseFacing(goal_facing, up);
+  Eigen::Vector3d up = task.hand == nullptr ? Eigen::Vector3d::UnitZ() : task.hand->up;
+  if (gravity == kAnyGravity) {
+    if (task.hand != nullptr) task.ups = kinematics::UpDirections(*task.hand);
+  } else if (!gravity.empty()) {
+    up = ParseGravity(gravity);
+    task.ups = {up};
   }
-  if (!goals.empty() && task.hand != nullptr) task.goals = plan::ReadGoalList(goals, task.hand->up);
+  if (!goal_facing.empty()) task.goal = ParseFacing(goal_facing, up);
+  if (!goals.empty() && task.hand != nullptr) task.goals = plan::ReadGoalList(goals, up);
 }
 
 }  // namespace regrasp::apps

@@ -219,6 +219,8 @@ void PlanProgram::ReadContinuedPlan() {
                      DescribeFile(continued->hand->file, continued->hand->sha256) + ", found " +
                      DescribeFile(hand_file->hand.file, hand_file->hand.sha256));
   }
+  hand_file =
+      std::make_shared<const kinematics::HandFile>(kinematics::HandOfPlan(*hand_file, *continued));
   const plan::FingerGrasp grasp = plan::EndOfPlan(*continued).grasp;
   start.text = plan::FormatGrasp(plan::ContactsOf(grasp), continued->dimension);
   start.name = path + ": the grasp after the last step";
@@ -249,7 +251,7 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 void PlanProgram::Finish(const CLI::App& app) {
   for (const char* name :
        {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
-        "--goals", "--continue", "--robustness"}) {
+        "--goals", "--gravity", "--continue", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }

@@ -32,6 +32,8 @@ constexpr std::int64_t kLargestBudget = 100'000'000'000;
 /// Maximum number of queries.
 /// More queries take minutes on objects with many failing queries.
 constexpr int kMostQueries = 100'000;
+/// More focus points take minutes.
+constexpr int kMostSamples = 10'000'000;
 
 std::vector<std::string> NamesForUsers() {
   std::vector<std::string> names = {"auto"};
@@ -79,7 +81,10 @@ std::string PlannerHelp(PlannerOptions::Purpose purpose) {
                     std::to_string(tree::TreePlanner::kDefaultTests) +
                     "] or expanded grasps [default: " + std::to_string(gait::kDefaultExpanded) + "]"
               : "queries=N (roadmap with clusters): also answer N random queries between "
-                "force-closure grasps");
+                "force-closure grasps\n"
+                "sampling=N (polyhedron): find focus cells with N random focus points in a box "
+                "around all cells\n"
+                "compare (polyhedron): also print which share of the graph the sampling finds");
 }
 
 }  // namespace
@@ -142,6 +147,8 @@ void PlannerOptions::AddPlanner(CLI::App& app, Purpose purpose) {
     list.Key("budget", IntegerParser(budget, std::int64_t{1}, kLargestBudget));
   } else {
     list.Key("queries", IntegerParser(queries, 1, kMostQueries));
+    list.Key("sampling", IntegerParser(focus_points, 1, kMostSamples));
+    list.Word("compare", [this] { compare = true; });
   }
   list.AddTo(app, type + "[,KEY=VALUE,…]", PlannerHelp(purpose));
 }

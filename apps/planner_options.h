@@ -38,6 +38,8 @@ struct PlannerOptions {
   bool fallback = true;                ///< whether to search in the full contact set
   std::optional<std::int64_t> budget;  ///< search budget (SearchParameters::budget)
   int queries = 0;                     ///< number of random queries of `graph`
+  int focus_points = 0;                ///< number of random focus points of `graph`; 0: none
+  bool compare = false;  ///< whether `graph` compares the cells of these points with all cells
   double scale = 1;
   std::optional<double> time_limit_s;
   bool force = false;

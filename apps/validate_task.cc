@@ -170,6 +170,7 @@ void CheckFits(const ValidateOptions& options, const ValidateTask& task) {
 /// Check the options against plan and object, and parse the required grasps.
 void FinishTask(const ValidateOptions& options, ValidateTask& task) {
   CheckFits(options, task);
+  if (task.shared.hand) task.shared.hand = kinematics::HandOfPlan(*task.shared.hand, task.plan);
   const object::Object& object = *task.object->object;
   const auto parse = [&](const std::string& text, const std::string& path, grasp::Grasp& grasp) {
     if (!path.empty()) grasp = plan::ParseGrasp(text, path, object);

@@ -53,6 +53,8 @@ struct HandArguments {
   Eigen::Vector3d turn_axis = Eigen::Vector3d::UnitZ();
   double turn_angle = 0;  ///< radians
   std::optional<std::array<double, 7>> start_pose, goal_pose;
+  /// Unit vectors against gravity in the palm frame, to try in this order; empty: the hand's own.
+  std::vector<Eigen::Vector3d> ups;
   std::optional<std::string> goals;  ///< text of a file of goals
   std::string goals_name;            ///< name of this text in messages
   double clearance = 1e-3;
@@ -76,7 +78,8 @@ std::optional<plan::GoalSet> GoalOf(const HandArguments& given) {
 
 std::vector<plan::NamedGoal> GoalsOf(const HandArguments& given, const PythonHand& hand) {
   if (!given.goals) return {};
-  return plan::ParseGoalList(*given.goals, given.goals_name, hand.file.hand.up);
+  return plan::ParseGoalList(*given.goals, given.goals_name,
+                             given.ups.empty() ? hand.file.hand.up : given.ups.front());
 }
 
 planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
@@ -90,6 +93,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .start_pose = PoseOf(given.start_pose),
           .goal = GoalOf(given),
           .goals = GoalsOf(given, hand),
+          .ups = given.ups,
           .simulate = sim::ExecutionSimulator(
               hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
@@ -205,11 +209,14 @@ void BindPlans(py::module_& module) {
       .def_readwrite("turn_angle", &HandArguments::turn_angle)
       .def_readwrite("start_pose", &HandArguments::start_pose)
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
+      .def_readwrite("ups", &HandArguments::ups)
       .def_readwrite("goals", &HandArguments::goals)
       .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)
       .def_readwrite("robustness", &HandArguments::robustness)
       .def_readwrite("is_standard", &HandArguments::is_standard);
+  module.def("up_directions",
+             [](const PythonHand& hand) { return kinematics::UpDirections(hand.file.hand); });
   module.def("find_plan_in_hand",
              [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
                 const HandArguments& asked, py::object progress) {

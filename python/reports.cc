@@ -50,7 +50,8 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   plan::Plan plan = plan::ParsePlan(text, name);
   CheckFits(plan, object, name);
   std::shared_ptr<const kinematics::HandFile> kept;
-  if (hand != nullptr) kept = std::make_shared<const kinematics::HandFile>(hand->file);
+  if (hand != nullptr)
+    kept = std::make_shared<const kinematics::HandFile>(kinematics::HandOfPlan(hand->file, plan));
   validation::ValidationObserver observer;
   report::HandRecorder recorder;
   observer.replay.on_time_step = [&](const sim::HandWorld& world) { recorder.Add(world); };

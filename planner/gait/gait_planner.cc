@@ -66,7 +66,7 @@ Relaxation TiltedPalm(kinematics::HandModel& hand) {
             hand.up.cwiseAbs().minCoeff(&least);
             const Eigen::Vector3d axis =
                 hand.up.cross(Eigen::Vector3d(Eigen::Vector3d::Unit(least))).normalized();
-            hand.up = Eigen::AngleAxisd(Radians(degrees), axis) * hand.up;
+            kinematics::SetUp(Eigen::AngleAxisd(Radians(degrees), axis) * hand.up, hand);
             request.hand = &hand;
             return "the palm tilted by " + FormatShort(std::abs(degrees), 3) +
                    " degrees (\"up\" of the hand file: " + FormatShort(hand.up.x(), 3) + ", " +
@@ -127,12 +127,37 @@ std::vector<planning::StaticGrasp> StaticGraspsOf(const plan::Plan& plan) {
 }
 
 /// Find a plan for the goal of a request, or for its list of goals.
-GoalListResult FindPlan(const GaitRequest& request) {
+GoalListResult FindPlanUnderGravity(const GaitRequest& request) {
   if (!request.goals.empty()) return FindPlanThroughGoals(request);
   GaitResult found = FindGait(request);
   GoalListResult result{std::nullopt, std::move(found.execution), std::move(found.message)};
   if (found.gait) result.plan = PlanOf(*found.gait, request, found.contacts);
   return result;
+}
+
+/// Find a plan with the first possible one of several directions of gravity.
+GoalListResult FindPlan(const GaitRequest& request) {
+  if (request.ups.empty()) return FindPlanUnderGravity(request);
+  GoalListResult first;
+  const std::size_t count = request.ups.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    kinematics::HandModel hand = *request.hand;
+    kinematics::SetUp(request.ups[i], hand);
+    GaitRequest turned = request;
+    turned.hand = &hand;
+    turned.deadline = request.deadline.After(1 / static_cast<double>(count - i));
+    turned.ups.clear();
+    turned.progress = [&](std::string_view text) {
+      request.progress("direction of gravity " + std::to_string(i + 1) + " of " +
+                       std::to_string(count) + ": " + std::string(text));
+    };
+    GoalListResult found = FindPlanUnderGravity(turned);
+    if (found.plan) return found;
+    if (i == 0) first = std::move(found);
+  }
+  first.message +=
+      "; " + std::to_string(count - 1) + " other directions of gravity do not yield a plan either";
+  return first;
 }
 
 /// Example: "goals: a after step 3, b after step 9".
@@ -143,6 +168,14 @@ std::string GoalsText(const std::vector<plan::GoalMark>& goals) {
         (text.empty() ? "goals: " : ", ") + goal.name + " after step " + std::to_string(goal.step);
   }
   return text;
+}
+
+/// Example: "direction of gravity in the palm frame: (0, 0, -1), that of the hand file".
+std::string GravityText(const kinematics::HandModel& hand, const plan::Plan& plan) {
+  const Eigen::Vector3d down = -plan.hand->up.value_or(hand.up);
+  return "direction of gravity in the palm frame: (" + FormatShort(down.x() + 0.0) + ", " +
+         FormatShort(down.y() + 0.0) + ", " + FormatShort(down.z() + 0.0) + ")" +
+         (plan.hand->up ? "" : ", that of the hand file");
 }
 
 /// Example: "the plan passes 24 of 26 standard conditions and fails under torsion-5mm,
@@ -206,6 +239,13 @@ GaitPlanner::GaitPlanner()
 
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
+  kinematics::HandModel turned;
+  if (request.ups.size() == 1) {
+    turned = *request.hand;
+    kinematics::SetUp(request.ups.front(), turned);
+    request.hand = &turned;
+    request.ups.clear();
+  }
   if (request.seeks_most_margin &&
       (!request.simulate || request.robustness == RobustnessLevel::kNone)) {
     throw InputError(std::string(planning::kMarginOption) +
@@ -251,6 +291,7 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
         (is_failure ? "shows the failure" : "completes the simulation"));
   }
   if (!request.goals.empty()) result.notes.push_back(GoalsText(result.plan->hand->goals));
+  if (!request.ups.empty()) result.notes.push_back(GravityText(*request.hand, *result.plan));
   const std::vector<planning::StaticGrasp> grasps = StaticGraspsOf(*result.plan);
   const criteria::GraspEvaluator evaluator(*asked.object, asked.criteria, FingersOf(request));
   result.margin = planning::SmallestMargin(grasps, evaluator);

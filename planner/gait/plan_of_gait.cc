@@ -114,6 +114,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   plan.hand =
       plan::HandUse{hand.name, hand.file, hand.sha256, StateOf(gait.start, hand),
                     (gait.segments.empty() ? gait.start : gait.segments.back().path.back()).pose};
+  if (!hand.has_own_up) plan.hand->up = hand.up;
   for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});

@@ -344,4 +344,9 @@ HandFile ReadHandFile(const fs::path& path) {
 
 HandModel ReadHand(const fs::path& path) { return ReadHandFile(path).hand; }
 
+HandFile HandOfPlan(HandFile file, const plan::Plan& plan) {
+  if (plan.hand && plan.hand->up) SetUp(*plan.hand->up, file.hand);
+  return file;
+}
+
 }  // namespace regrasp::kinematics

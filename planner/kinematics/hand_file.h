@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/kinematics/hand_model.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::kinematics {
 
@@ -33,6 +34,9 @@ struct HandFile {
 ///     collision geoms cannot be represented (hand_model.h). The message names the file and the
 ///     element.
 [[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
+
+/// Return a hand on which gravity acts as in a plan (plan::HandUse::up).
+[[nodiscard]] HandFile HandOfPlan(HandFile file, const plan::Plan& plan);
 
 /// Read a hand without its model.
 /// @throws InputError  as ReadHandFile.

@@ -291,4 +291,21 @@ void CheckCollisionGeoms(const HandDescription& description, const CompiledModel
   }
 }
 
+void SetUp(const Eigen::Vector3d& up, HandModel& hand) {
+  if (up == hand.up) return;
+  hand.up = up;
+  hand.has_own_up = false;
+}
+
+std::vector<Eigen::Vector3d> UpDirections(const HandModel& hand) {
+  std::vector<Eigen::Vector3d> ups = {hand.up};
+  for (const double sign : {1.0, -1.0}) {
+    for (const Eigen::Index axis : {2, 1, 0}) {
+      const Eigen::Vector3d up = sign * Eigen::Vector3d::Unit(axis);
+      if (!up.isApprox(hand.up)) ups.push_back(up);
+    }
+  }
+  return ups;
+}
+
 }  // namespace regrasp::kinematics

@@ -68,6 +68,7 @@ struct HandModel {
   /// Digest of the hand's file, of the model's file with all included files, and of all meshes.
   std::string sha256;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector against gravity
+  bool has_own_up = true;  ///< whether `up` is that of the hand's file (SetUp)
   std::vector<Finger> fingers;
   std::vector<LinkShape> palm;  ///< shapes of the palm; `after` is 0
   /// Shape in a pair that is near by construction and not checked for collisions.
@@ -78,6 +79,13 @@ struct HandModel {
   };
   std::vector<std::pair<Part, Part>> ignored;  ///< pairs in ascending order, sorted
 };
+
+/// Let gravity act on a hand in another direction than its file states. Plans record it.
+/// @param up  unit vector against gravity, in the palm's frame.
+void SetUp(const Eigen::Vector3d& up, HandModel& hand);
+
+/// Return upward directions to try: that of the hand, then the axes of the palm's frame.
+[[nodiscard]] std::vector<Eigen::Vector3d> UpDirections(const HandModel& hand);
 
 /// Joint configuration of a finger: angle of each independent joint, radians.
 using JointConfiguration = Eigen::VectorXd;

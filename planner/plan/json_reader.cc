@@ -282,11 +282,22 @@ std::string ReadSha256(const JsonReader& json) {
   return digits;
 }
 
+/// Return a vector of length 1, up to rounding.
+Eigen::Vector3d ReadUnitVector(const JsonReader& json) {
+  constexpr double kRounding = 1e-6;
+  const Eigen::Vector3d vector = json.Vector(3);
+  if (!(std::abs(vector.norm() - 1) <= kRounding)) {
+    json.Fail("the vector's length must be 1, found " + FormatShort(vector.norm(), 4));
+  }
+  return vector;
+}
+
 HandUse ReadHandUse(const JsonReader& json) {
   HandUse hand{json.Member("name").String(), json.Member("file").String(),
                ReadSha256(json.Member("sha256")), ReadState(json.Member("initial")),
                ReadPose(json.Member("goal"))};
   if (json.Has("goals")) hand.goals = ReadGoalMarks(json.Member("goals"));
+  if (json.Has("up")) hand.up = ReadUnitVector(json.Member("up"));
   return hand;
 }
 
@@ -308,6 +319,7 @@ Json HandUseJson(const HandUse& hand) {
                {"initial", StateJson(hand.initial)},
                {"goal", PoseJson(hand.goal)}};
   if (!hand.goals.empty()) json["goals"] = GoalMarksJson(hand.goals);
+  if (hand.up) json["up"] = VectorJson(*hand.up, 3);
   return json;
 }
 

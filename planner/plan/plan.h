@@ -72,6 +72,8 @@ struct HandUse {
   Eigen::Isometry3d goal = Eigen::Isometry3d::Identity();  ///< final pose of the object
   /// Goals with tolerances, in the order of their steps. Empty if the only goal is `goal`.
   std::vector<GoalMark> goals = {};
+  /// Unit vector against gravity in the palm's frame, if it is not that of the hand's file.
+  std::optional<Eigen::Vector3d> up = {};
 };
 
 /// Finger switch: the `place` fingers, which are free, make contact; then the `release` fingers,

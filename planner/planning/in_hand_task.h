@@ -76,6 +76,9 @@ struct InHandTask {
   /// Tolerance of a turn: of its angle, and of the position of the object's centre. Without it the
   /// angle is exact and the centre may end some millimetres away.
   std::optional<plan::PoseTolerance> turn_tolerance = {};
+  /// Unit vectors against gravity in the palm frame. The planner uses the first one with which it
+  /// finds a plan. Empty: that of the hand.
+  std::vector<Eigen::Vector3d> ups = {};
   /// Fingers of the contacts of a given start grasp, in its order; empty: any fingers.
   std::vector<FingerIndex> start_fingers = {};
   /// Joint angles [finger][joint] at the start, radians (plan::HandState::joints); empty: any.

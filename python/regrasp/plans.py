@@ -162,7 +162,6 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
         friction_angle_deg: friction angle, degrees.
         planner: "auto" or the name of a planner, as on the command line.
         optimize: objective: "steps", "margin" or "travel"; "regions" for polygons.
-            With a hand, "margin" selects the plan that fails under the fewest standard conditions.
         contacts: number of contact points of the planner "roadmap"; default: chosen by the planner.
         clusters: number of clusters of these points; default: chosen by the planner.
         seed: seed of all random choices.
@@ -211,6 +210,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  goals: str | os.PathLike | Sequence[dict] | None = None,
+                 gravity: str | ArrayLike | None = None, optimize: str = "steps",
                  reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
@@ -235,6 +235,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         goals: goals that the object reaches one after the other. Path of a goals file
             (docs/format_goals.md), or its list of goals as dictionaries. The plan marks the step of
             each goal.
+        gravity: direction of gravity in the palm frame, three numbers. "any" tries the direction of the
+            hand file and then the six axes. Default: the direction of the hand file.
+        optimize: "steps", or "margin" for the plan that fails under the fewest standard conditions.
         reserve: robustness of the plan. "required" returns only a plan that executes in simulation on
             the hand's actuators. "preferred" returns a plan that does not if there is no other.
             "standard" returns only a plan that also executes with realistic sensors, joint errors of
@@ -282,6 +285,11 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.goal_pose = None if goal_pose is None else _pose("goal_pose", goal_pose)
     if goals is not None:
         task.goals_name, task.goals = _goals_text(goals)
+    if gravity is not None:
+        if isinstance(gravity, str) and goals is not None:
+            raise InputError('gravity "any" cannot be used with goals, which depend on the direction of gravity')
+        task.ups = _ups(gravity, hand)
+    given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, ["steps", "margin"]))
     words = ["preferred", "required", "standard", "none"]
     level = _arguments.choice("reserve", reserve, words)
     task.is_standard = level == "standard"
@@ -329,6 +337,18 @@ def _turn(turn) -> tuple[list[float], float]:
     if degrees == 0:
         raise InputError("turn[1] must not be 0 degrees")
     return [float(axis == other) for other in "xyz"], degrees * (math.pi / 180)
+
+
+def _ups(gravity, hand: Hand) -> list[np.ndarray]:
+    """Return the unit vectors against the directions of gravity, in the order in which they are tried."""
+    if isinstance(gravity, str):
+        _arguments.choice("gravity", gravity, ["any"])
+        return _regrasp.up_directions(hand._core)
+    down = _arguments.vector("gravity", gravity, 3)
+    length = np.linalg.norm(down)
+    if length < 1e-9:
+        raise InputError("gravity must not be a zero vector")
+    return [-down / length]
 
 
 def _pose(name: str, pose) -> list[float]:

@@ -251,9 +251,21 @@ HandReplayOptions In(EngineChoice engine, HandReplayOptions options) {
 
 }  // namespace
 
+namespace {
+
+/// Check that gravity acts on a plan in the direction of the hand.
+/// @throws std::invalid_argument  otherwise.
+void CheckGravity(const kinematics::HandModel& hand, const plan::Plan& plan) {
+  if (!plan.hand || !plan.hand->up || plan.hand->up->isApprox(hand.up)) return;
+  throw std::invalid_argument("ReplayHand: gravity acts in another direction than on the plan");
+}
+
+}  // namespace
+
 ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
                         const plan::Plan& plan, const HandReplayOptions& given,
                         const ReplayObserver& observer, int steps) {
+  CheckGravity(file.hand, plan);
   if (plan.torsion != 0) {
     throw InputError(
         "hand replay: soft-finger contacts not supported, expected hard contacts; help: "
@@ -348,6 +360,7 @@ HandReplays::HandReplays(kinematics::HandFile file, const object::Polyhedron& so
 HandReplays::~HandReplays() = default;
 
 ReplayResult HandReplays::Replay(const plan::Plan& plan, const Deadline& deadline) {
+  CheckGravity(impl_->file.hand, plan);
   return impl_->Run(plan, deadline);
 }
 

@@ -49,6 +49,8 @@ struct HandReplayOptions : ReplayConditions {
 /// @param observer  with ODE alone only its `on_progress` is called.
 /// @param steps     number of steps to replay, initial grasp included; negative: all.
 /// @throws InputError  if the hand's model cannot be simulated.
+/// @throws std::invalid_argument  if gravity acts on the plan in another direction than on the hand
+///     (kinematics::HandOfPlan).
 [[nodiscard]] ReplayResult ReplayHand(const kinematics::HandFile& file,
                                       const object::Polyhedron& solid, const plan::Plan& plan,
                                       const HandReplayOptions& options,
@@ -65,7 +67,7 @@ class HandReplays {
   HandReplays& operator=(const HandReplays&) = delete;
 
   /// Return the result of ReplayHand, to the bit, without the steps after the deadline.
-  /// @throws InputError  as ReplayHand.
+  /// @throws InputError, std::invalid_argument  as ReplayHand.
   [[nodiscard]] ReplayResult Replay(const plan::Plan& plan, const Deadline& deadline);
 
  private:

@@ -30,11 +30,15 @@ class ReplaysByThread {
 
   [[nodiscard]] const std::vector<HandReplayOptions>& conditions() const { return conditions_; }
 
-  HandReplays& Own(std::size_t condition) {
+  /// @param plan  the next plan to replay.
+  HandReplays& Own(std::size_t condition, const plan::Plan& plan) {
     const std::scoped_lock lock(mutex_);
     auto& own = by_thread_[{std::this_thread::get_id(), condition}];
-    if (!own) own = std::make_unique<HandReplays>(file_, solid_, conditions_[condition]);
-    return *own;
+    if (!own.replays || own.up != plan.hand->up) {
+      own = {plan.hand->up, std::make_unique<HandReplays>(kinematics::HandOfPlan(file_, plan),
+                                                          solid_, conditions_[condition])};
+    }
+    return *own.replays;
   }
 
  private:
@@ -42,7 +46,11 @@ class ReplaysByThread {
   const object::Polyhedron& solid_;
   std::vector<HandReplayOptions> conditions_;
   std::mutex mutex_;
-  std::map<std::pair<std::thread::id, std::size_t>, std::unique_ptr<HandReplays>> by_thread_;
+  struct OwnReplays {
+    std::optional<Eigen::Vector3d> up;  ///< plan::HandUse::up
+    std::unique_ptr<HandReplays> replays;
+  };
+  std::map<std::pair<std::thread::id, std::size_t>, OwnReplays> by_thread_;
 };
 
 planning::ExecutionResult ResultOf(const ReplayResult& result, const plan::Plan& plan,
@@ -135,8 +143,9 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
       const plan::Plan projected = plan::ProjectPlan(solid, plan);
       std::optional<planning::ExecutionResult> worst;
       for (std::size_t k = 0; k < replays->conditions().size(); ++k) {
-        planning::ExecutionResult found = ResultOf(replays->Own(k).Replay(projected, deadline),
-                                                   plan, replays->conditions()[k].tolerance);
+        planning::ExecutionResult found =
+            ResultOf(replays->Own(k, plan).Replay(projected, deadline), plan,
+                     replays->conditions()[k].tolerance);
         const double tolerance_margin =
             worst ? std::min(worst->tolerance_margin, found.tolerance_margin)
                   : found.tolerance_margin;
@@ -158,10 +167,11 @@ ExecutionRater(kinematics::HandFile file, const object::Polyhedron& solid) {
              const plan::Plan& plan, int most_failures,
              const Deadline& deadline) -> std::optional<planning::RobustnessRating> {
     const plan::Plan projected = plan::ProjectPlan(solid, plan);
+    const kinematics::HandFile hand = kinematics::HandOfPlan(file, plan);
     planning::RobustnessRating rating{.conditions = static_cast<int>(conditions->size())};
     for (const RatedCondition& condition : *conditions) {
       const std::optional<bool> executes =
-          Executes(file, solid, projected, condition.options, deadline);
+          Executes(hand, solid, projected, condition.options, deadline);
       if (!executes) return std::nullopt;
       if (!*executes) rating.failed.push_back(condition.name);
       if (std::ssize(rating.failed) > most_failures) return std::nullopt;

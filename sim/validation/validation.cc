@@ -223,7 +223,10 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
   return settings;
 }
 
-ValidationResult Validate(const ValidationRequest& request, const ValidationObserver& observer) {
+ValidationResult Validate(const ValidationRequest& given, const ValidationObserver& observer) {
+  ValidationRequest request = given;
+  std::optional<kinematics::HandFile> hand;
+  if (given.hand != nullptr) request.hand = &hand.emplace(HandOfPlan(*given.hand, given.plan));
   ValidationResult result{ResolveSettings(request), {}};
   if (request.hand != nullptr) {
     ReportStage(observer, "checking the hand");

@@ -264,6 +264,63 @@ class Gait(ProgramCase):
         done, _ = self.validate(plan, *given, "--conditions", "require=0.5")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def turn(self, hand, degrees):
+        return ("--object", self.model("cube.obj"), "--scale", "0.8", "--mu", "0.8", "--hand", hand, "--turn",
+                f"z,{degrees}")
+
+    def test_a_plan_under_gravity_in_another_direction(self):
+        """A second route: a hand file with that direction gives the same plan."""
+        ring5 = self.hand("ring5")
+        with open(ring5, encoding="utf-8") as file:
+            turned = json.load(file)
+        turned["up"] = [0, 0, -1]
+        turned["model"] = os.path.join(os.path.dirname(ring5), turned["model"])
+        self.write_json("turned.json", turned)
+        plans = {}
+        for name, hand, more in (("own", ring5, ()), ("same", ring5, ("--gravity=-z",)),
+                                 ("other", ring5, ("--gravity", "0,0,2")), ("file", self.path("turned.json"), ())):
+            self.assert_done(*self.turn(hand, 45), *more, "--output", name + ".json", program="plan")
+            plans[name] = json.loads(self.read(name + ".json"))
+        self.assertEqual(plans["same"], plans["own"])
+        self.assertEqual(plans["other"]["hand"].pop("up"), [0, 0, -1])
+        for key in ("file", "sha256"):
+            self.assertNotEqual(plans["other"]["hand"].pop(key), plans["file"]["hand"].pop(key))
+        self.assertEqual(plans["other"], plans["file"])
+        self.assertNotEqual(plans["other"]["steps"], plans["own"]["steps"])
+        offs = {}
+        for name, plan in (("other", "other.json"), ("own", "wrong.json")):
+            text = json.loads(self.read("other.json"))
+            if name == "own":  # negative control: the direction of the hand file
+                del text["hand"]["up"]
+            self.write_json("wrong.json", text)
+            self.run_program("--object", self.model("cube.obj"), "--plan", plan, "--hand", ring5, "--frames", "none",
+                             "--output", name, program="validate")
+            offs[name] = json.loads(self.read(name + "/report.json"))
+        self.assertEqual(offs["other"]["verdict"], "pass")
+        moved = [[step["simulation"]["displacement_m"] for step in offs[name]["steps"]] for name in ("other", "own")]
+        self.assertNotEqual(*moved)
+        text = json.loads(self.read("other.json"))
+        for up in ([0, 0, 2], [0, 0], "z", [0, 0, None]):
+            text["hand"]["up"] = up
+            self.write_json("bad.json", text)
+            self.assert_refused(2, ["bad.json", "/hand/up"], "--object", self.model("cube.obj"), "--plan", "bad.json",
+                                "--hand", ring5, program="validate")
+
+    def test_directions_of_gravity_that_are_refused(self):
+        ring5 = self.hand("ring5")
+        for more, words in ((("--gravity", "sideways"), '--gravity: expected a direction'),
+                            (("--gravity", "0,0,0"), "--gravity: expected a direction"),
+                            (("--gravity", "0,0,1,5"), "--gravity: expected a direction"),
+                            (("--gravity", "up"), "--gravity: expected a direction")):
+            self.assert_refused(2, words, *self.turn(ring5, 45), *more, "--output", "p.json", program="plan")
+        for goal in (("--goal-facing", "x,up,30"), ("--goals", "goals.json")):
+            self.assert_refused(2, f"--gravity any: cannot be used with {goal[0]}", "--object", self.model("cube.obj"),
+                                "--mu", "0.8", "--hand", ring5, *goal, "--gravity", "any", "--output", "p.json",
+                                program="plan")
+        self.assert_refused(2, "--continue: cannot be used with --gravity", "--object", self.model("cube.obj"), "--mu",
+                            "0.8", "--hand", ring5, "--continue", "p.json", "--gravity", "z", "--goal-facing",
+                            "x,up,30", "--output", "q.json", program="plan")
+
     def check_trajectory(self, plan, by_hand):
         """Both formats have the same content, and begin and end like the plan."""
         for name in ("hand.csv", "hand.npz"):

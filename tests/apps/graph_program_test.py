@@ -166,7 +166,7 @@ class Graph(ProgramCase):
         self.assertGreater(min(cells, links), 10)
         shares = []
         for points in ("20", "2000", "2000"):
-            done = self.assert_done(*body, "--sampling", points, "--sampling", "compare", "--json",
+            done = self.assert_done(*body, "--planner", f"sampling={points},compare", "--json",
                                     "sampled.json")
             self.assertIn("of the direct graph sampling found", done.stdout)
             shares.append(json.loads(self.read("sampled.json"))["compare"])
@@ -219,7 +219,7 @@ class Graph(ProgramCase):
         solid = ["--object", self.model("cube.obj"), "--friction-angle", "20"]
         for options, lacking, having in (
                 (["--planner", "spanning=uniform"], "roadmap", "polyhedron"),
-                (["--sampling", "9"], "roadmap", "polyhedron"),
+                (["--planner", "sampling=9"], "roadmap", "polyhedron"),
                 (["--planner", "points=20"], "polyhedron", "roadmap"),
                 (["--planner", "clusters=9"], "polyhedron", "roadmap"),
                 (["--planner", "queries=9"], "polyhedron", "roadmap")):
@@ -239,7 +239,7 @@ class Graph(ProgramCase):
         self.assertEqual(planner(*self.arguments()), "roadmap")
         body = ["--object", self.model("body14.obj")]
         self.assertEqual(planner(*body, "--planner", "spanning=uniform"), "polyhedron")
-        self.assertEqual(planner(*body, "--sampling", "5"), "polyhedron")
+        self.assertEqual(planner(*body, "--planner", "sampling=5"), "polyhedron")
         self.assert_refused(2, ["--planner points (roadmap)", "--planner spanning=uniform (polyhedron)"],
                             *self.arguments("--mu", "0.3", "--planner", "spanning=uniform"))
 
@@ -263,10 +263,9 @@ class Graph(ProgramCase):
                             *self.arguments("--mu", "1", "--planner", "general"))
         self.assert_refused(2, "--planner queries requires clusters",
                             *self.arguments("--mu", "1", "--planner", "queries=9"))
-        self.assert_refused(2, "--sampling", *self.arguments("--mu", "1", "--sampling", "100"))
-        self.assert_refused(2, "--sampling compare: requires the number of focus points",
-                            *self.arguments("--mu", "1", "--planner", "polyhedron", "--sampling",
-                                            "compare"))
+        self.assert_refused(2, "--planner sampling", *self.arguments("--mu", "1", "--planner", "roadmap,sampling=100"))
+        self.assert_refused(2, "--planner compare: requires the setting sampling",
+                            *self.arguments("--mu", "1", "--planner", "polyhedron,compare"))
         self.assert_refused(2, "no.obj", "--object", "no.obj", "--mu", "1")
         self.assert_refused(2, "planar", *self.polygon("--mu", "1", "--planner", "roadmap"))
         self.assert_refused(2, "solid", *self.arguments("--mu", "1", "--planner", "polygon"))

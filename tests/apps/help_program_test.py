@@ -239,7 +239,7 @@ class Help(ProgramCase):
                 rest = {"plan": [*rest, "--batch", "no.jsonl"],
                         "validate": [*rest, "no_2.json"]}[program]
             if old == "--compare":
-                rest = [*rest, "--sampling", "9"]
+                rest = [*rest, "--planner", "sampling=9"]
             if old == "--queries":
                 rest = [*rest, "--planner", "clusters=9"]
             if (program, old) == ("graph", "--no-lazy"):

@@ -12,7 +12,7 @@
 namespace regrasp::polyhedron {
 
 /// Option of the planner `polyhedron`, as users write it.
-inline constexpr char kFocusPointsOption[] = "--sampling";
+inline constexpr char kFocusPointsOption[] = "--planner sampling";
 
 /// Parameters of the planner `polyhedron` in PlanRequest::parameters, in addition to those in
 /// sets/set_parameters.h.

@@ -143,17 +143,18 @@ std::vector<std::tuple<std::string, planning::PlannerParameters, std::set<std::s
 OneParameterEach() {
   using planning::SearchParameters;
   using roadmap::RoadmapParameters;
-  return {{"--planner spanning=uniform",
-           sets::SetParameters{planning::Spanning::kUniform},
-           {"polygon", "polyhedron"}},
-          {"--sampling", polyhedron::PolyhedronParameters{.focus_points = 1}, {"polyhedron"}},
-          {"--planner points", RoadmapParameters{.contact_points = 0}, {"roadmap"}},
-          {"--planner clusters", RoadmapParameters{.clusters = 0}, {"roadmap"}},
-          {"--planner fallback=no", RoadmapParameters{.last_resort = false}, {"roadmap"}},
-          {"--planner queries", RoadmapParameters{.queries = 1}, {"roadmap"}},
-          {"--planner budget", SearchParameters{.budget = 0}, {"general", "gait"}},
-          {"--explain", SearchParameters{.explain = true}, {"general", "gait"}},
-          {"--hand", gait::GaitParameters{.task = planning::InHandTask()}, {"gait"}}};
+  return {
+      {"--planner spanning=uniform",
+       sets::SetParameters{planning::Spanning::kUniform},
+       {"polygon", "polyhedron"}},
+      {"--planner sampling", polyhedron::PolyhedronParameters{.focus_points = 1}, {"polyhedron"}},
+      {"--planner points", RoadmapParameters{.contact_points = 0}, {"roadmap"}},
+      {"--planner clusters", RoadmapParameters{.clusters = 0}, {"roadmap"}},
+      {"--planner fallback=no", RoadmapParameters{.last_resort = false}, {"roadmap"}},
+      {"--planner queries", RoadmapParameters{.queries = 1}, {"roadmap"}},
+      {"--planner budget", SearchParameters{.budget = 0}, {"general", "gait"}},
+      {"--explain", SearchParameters{.explain = true}, {"general", "gait"}},
+      {"--hand", gait::GaitParameters{.task = planning::InHandTask()}, {"gait"}}};
 }
 
 TEST(PlannerFor, EveryParameterIsRefusedByOptionNameExceptByItsPlanners) {
