@@ -79,7 +79,24 @@ class HandsTable(ProgramCase):
         os.chmod(self.write("programs/hand", "#!/bin/sh\necho hand: last words >&2; kill -SEGV $$\n"), 0o755)
         done = self.table("ring4", "ring5", programs=self.path("programs"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.cells(done.stdout, "ring5")[2], ["hand", "`exit code -11: last words` |"])
+        self.assertEqual(self.cells(done.stdout, "ring5")[1][0], "refused")
+        self.assertIn("| ring4, ring5 | hand | `exit code -11: last words` |", done.stdout)
+
+    def test_each_model_of_the_list_is_on_the_page(self):
+        source = program_case.ARGUMENTS.source
+        with open(os.path.join(source, "bench", "hand_models.json"), encoding="utf-8") as file:
+            models = json.load(file)
+        with open(os.path.join(source, "docs", "hand_models.md"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertEqual(len({model["name"] for model in models}), len(models))
+        for model in models:
+            self.assertRegex(model["commit"], "^[0-9a-f]{40}$")
+            row, result = self.cells(page, model["name"])[:2]
+            self.assertTrue(row[0].startswith(f"`{model['model']}` ["), row)
+            self.assertEqual(row[1], model["licence"])
+            self.assertEqual(len(result), 5)
+            link = f"[{model['repository']}](https://github.com/{model['repository']})"
+            self.assertIn(f"{link} | {model['commit'][:8]} |", page)
 
     def test_a_list_without_a_member_is_refused(self):
         done = self.table("ring4", licence=None)
