@@ -12,6 +12,7 @@ set(regrasp_slow_tests
   apps.gait
   apps.general
   apps.hand
+  apps.hands_table
   apps.lines
   apps.meshes
   apps.models
