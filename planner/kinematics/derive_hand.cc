@@ -31,6 +31,8 @@ constexpr double kEndsAlike = 2e-3;
 constexpr double kDoubtfulGap = 1.5e-3;
 /// Radius of the bounding sphere, metres, below which a geom is a marker and not a fingertip.
 constexpr double kMarkerRadius = 1e-3;
+/// The same, relative to the largest bounding sphere of the link's geoms.
+constexpr double kMarkerShare = 0.125;
 constexpr double kSnap = 10 * std::numbers::pi / 180;
 constexpr double kSameWay = 45 * std::numbers::pi / 180;
 
@@ -171,7 +173,7 @@ int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
     int geom;
     double reach;   ///< distance of its farthest point from the joint
     double radius;  ///< radius of a sphere or capsule, otherwise 0
-    bool is_marker;
+    double around;  ///< radius of the bounding sphere
   };
   std::vector<End> ends;
   for (int geom = 0; geom < model_.ngeom; ++geom) {
@@ -181,13 +183,15 @@ int HandDeriver::TipGeom(int link, const Vector3d& anchor) const {
     if (shape.points.empty()) continue;
     double end = 0;
     for (const Vector3d& point : shape.points) end = std::max(end, (point - anchor).norm());
-    ends.push_back({geom, end + shape.radius, shape.radius,
-                    collision::BoundingSphereOf(shape).radius < kMarkerRadius});
-  }
-  if (std::ranges::any_of(ends, [](const End& end) { return !end.is_marker; })) {
-    std::erase_if(ends, [](const End& end) { return end.is_marker; });
+    ends.push_back(
+        {geom, end + shape.radius, shape.radius, collision::BoundingSphereOf(shape).radius});
   }
   if (ends.empty()) Fail("body " + BodyName(model_, link) + ": convex collision geom not found");
+  const double largest = std::ranges::max_element(ends, {}, &End::around)->around;
+  if (largest >= kMarkerRadius) {
+    const double least = std::max(kMarkerRadius, kMarkerShare * largest);
+    std::erase_if(ends, [&](const End& end) { return end.around < least; });
+  }
   const double farthest = std::ranges::max_element(ends, {}, &End::reach)->reach;
   std::erase_if(ends, [&](const End& end) { return end.reach < farthest - kEndsAlike; });
   const bool has_round = std::ranges::any_of(ends, [](const End& end) { return end.radius > 0; });

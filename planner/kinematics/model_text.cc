@@ -398,4 +398,21 @@ void DropMissingVisuals(const MeshPaths& paths, ModelText& text) {
   VisualDropper(paths, text).Drop();
 }
 
+std::string ReadMeshFile(const std::filesystem::path& path) {
+  std::string bytes = ReadFile(path);
+  const std::string ending = path.extension().string();
+  if (ending != ".obj" && ending != ".OBJ") return bytes;
+  std::string joined;
+  int objects = 0;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
+    const std::string_view line = std::string_view(bytes).substr(begin, end - begin);
+    const bool is_object = line.starts_with("o ") || line.starts_with("g ");
+    if (is_object) ++objects;
+    if (!is_object) joined += line;
+    begin = end;
+  }
+  return objects > 1 ? joined : bytes;
+}
+
 }  // namespace regrasp::kinematics

@@ -72,6 +72,11 @@ struct MeshFile {
   std::string alias;
 };
 
+/// Read a mesh file for MuJoCo, which reads only the first object of an OBJ file.
+/// Joins all objects and groups of an OBJ file; other files are unchanged.
+/// @throws InputError  if the file cannot be read.
+[[nodiscard]] std::string ReadMeshFile(const std::filesystem::path& path);
+
 /// Text of a model, as passed to MuJoCo.
 struct ModelText {
   XmlElement root;

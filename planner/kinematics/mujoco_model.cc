@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -94,6 +95,16 @@ constexpr const char* kBinaryName = "hand.mjb";
 [[noreturn]] void ThrowError(const char* message) { throw std::runtime_error(message); }
 void IgnoreWarning(const char* /*message*/) {}
 
+/// Return whether MuJoCo would not read the whole mesh, and would find its joined file.
+/// MuJoCo finds files in memory by their names without folders.
+bool IsJoined(const MeshFile& mesh, const ModelText& text) {
+  const auto has_its_name = [&](const MeshFile& other) {
+    return other.path.filename() == mesh.path.filename();
+  };
+  return std::ranges::count_if(text.meshes, has_its_name) == 1 && fs::exists(mesh.path) &&
+         ReadMeshFile(mesh.path) != ReadFile(mesh.path);
+}
+
 ModelPtr Load(const fs::path& path, const ModelText& text) {
   mju_user_error = ThrowError;
   mju_user_warning = IgnoreWarning;
@@ -101,7 +112,11 @@ ModelPtr Load(const fs::path& path, const ModelText& text) {
   // The model's own name makes MuJoCo search for meshes in its folder.
   files.Add(path.filename().string(), FormatXml(text.root));
   for (const MeshFile& mesh : text.meshes) {
-    if (!mesh.alias.empty()) files.Add(mesh.alias, ReadFile(mesh.path));
+    if (!mesh.alias.empty()) {
+      files.Add(mesh.alias, ReadMeshFile(mesh.path));
+    } else if (IsJoined(mesh, text)) {
+      files.Add(mesh.path.filename().string(), ReadMeshFile(mesh.path));
+    }
   }
   std::array<char, 1000> error{};
   ModelPtr model(

@@ -340,7 +340,7 @@ def _turn(turn) -> tuple[list[float], float]:
 
 
 def _ups(gravity, hand: Hand) -> list[np.ndarray]:
-    """Return the unit vectors against the directions of gravity, in the order in which they are tried."""
+    """Return the unit vectors against the directions of gravity, first choice first."""
     if isinstance(gravity, str):
         _arguments.choice("gravity", gravity, ["any"])
         return _regrasp.up_directions(hand._core)

@@ -257,7 +257,7 @@ class SceneWriter {
       const std::filesystem::path path = MeshPath(*named);
       const std::string name =
           kMeshPrefix + std::to_string(files.size()) + path.extension().string();
-      files.push_back({name, ReadFile(path)});
+      files.push_back({name, kinematics::ReadMeshFile(path)});
       // An unnamed mesh gets the name of its file.
       if (element.Find("name") == nullptr) {
         element.Set("name", std::filesystem::path(*named).stem().string());

@@ -192,6 +192,30 @@ TEST_F(ConvertModelTest, MeshesOfOneNameInTwoFoldersAreTwo) {
   EXPECT_THAT(Attributes(compiled.text), Contains("mesh filename"));
 }
 
+/// MuJoCo alone reads the first object of an OBJ file.
+TEST_F(ConvertModelTest, AllObjectsOfAMeshAreRead) {
+  const std::string second =
+      "v 5 5 0\nv 4 5 0\nv 5 4 0\nv 5 5 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n";
+  Write("two.obj", "o first\n" + std::string(kTetrahedron) + "o second\n" + second);
+  Write("groups.obj", "g first\n" + std::string(kTetrahedron) + "g second\n" + second);
+  Write("joined.obj", kTetrahedron + second);
+  Write("one.obj", "o first\n" + std::string(kTetrahedron));
+  const auto faces = [&](const std::string& file, bool urdf) {
+    const CompiledModel compiled = Compile(
+        urdf ? R"(<robot name="r"><link name="a"><collision><geometry><mesh filename=")" + file +
+                   R"("/></geometry></collision></link></robot>)"
+             : R"(<mujoco><asset><mesh name="m" file=")" + file +
+                   R"("/></asset><worldbody><geom type="mesh" mesh="m"/></worldbody></mujoco>)");
+    return compiled.model->mesh_facenum[0];
+  };
+  for (const bool urdf : {true, false}) {
+    EXPECT_EQ(faces("joined.obj", urdf), 8);
+    EXPECT_EQ(faces("two.obj", urdf), 8);
+    EXPECT_EQ(faces("groups.obj", urdf), 8);
+    EXPECT_EQ(faces("one.obj", urdf), 4);
+  }
+}
+
 TEST_F(ConvertModelTest, LooksThatMujocoDoesNotTakeAreLeftOut) {
   // One triangle has the wrong orientation.
   Write("look.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");

@@ -129,6 +129,15 @@ TEST_F(DeriveHandTest, AMarkerFixedToALinkIsNoFingertip) {
     EXPECT_EQ(tip.name, "ff");
     EXPECT_EQ(tip.radius, 0.007);
   }
+  // A sphere at the end of a much larger box.
+  const auto at_end_of_box = [&](const std::string& radius) {
+    return Derive(Hand("", R"(<geom type="box" size="0.007 0.007 0.03" pos="0 0 0.02"/>
+                              <body name="mark" pos="0 0 0.05"><geom size=")" +
+                               radius + "\"/></body>"))
+        .description.tips[0];
+  };
+  EXPECT_EQ(at_end_of_box("0.002").body, "rh_ffdistal");
+  EXPECT_EQ(at_end_of_box("0.006").body, "mark");
   const DerivedHand pad =
       Derive(Hand("", "<body name=\"pad\" pos=\"0 0 0.03\"><geom size=\"0.005\"/></body>"));
   EXPECT_EQ(pad.description.tips[0].body, "pad") << "a part that reaches farther is the tip";
