@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "planner/base/number.h"
@@ -92,6 +94,7 @@ constexpr int kTimeDecimals = 3;
 
 Element MakeCase(const std::string& suite, const JunitCase& result) {
   Element element("testcase", {{"classname", suite},
+                               {"file", suite},
                                {"name", result.name},
                                {"time", FormatFixed(result.seconds, kTimeDecimals)}});
   const Attributes message = {{"message", result.message}};
@@ -114,20 +117,34 @@ Element MakeCase(const std::string& suite, const JunitCase& result) {
   return element;
 }
 
-Element MakeSuite(const JunitSuite& suite) {
+/// Return the attributes with the numbers of cases and the time of suites.
+Attributes TotalsOf(std::span<const JunitSuite> suites) {
   const auto count = [&](JunitOutcome outcome) {
-    return std::to_string(std::ranges::count(suite.cases, outcome, &JunitCase::outcome));
+    std::ptrdiff_t sum = 0;
+    for (const JunitSuite& suite : suites) {
+      sum += std::ranges::count(suite.cases, outcome, &JunitCase::outcome);
+    }
+    return std::to_string(sum);
   };
+  std::size_t tests = 0;
+  double seconds = 0;
+  for (const JunitSuite& suite : suites) {
+    tests += suite.cases.size();
+    seconds += suite.seconds;
+  }
+  return {{"tests", std::to_string(tests)},
+          {"failures", count(JunitOutcome::kFailed)},
+          {"errors", count(JunitOutcome::kError)},
+          {"skipped", count(JunitOutcome::kSkipped)},
+          {"time", FormatFixed(seconds, kTimeDecimals)}};
+}
+
+Element MakeSuite(const JunitSuite& suite) {
   std::vector<Element> cases;
   for (const JunitCase& result : suite.cases) cases.push_back(MakeCase(suite.name, result));
-  return Element("testsuite",
-                 {{"name", suite.name},
-                  {"tests", std::to_string(suite.cases.size())},
-                  {"failures", count(JunitOutcome::kFailed)},
-                  {"errors", count(JunitOutcome::kError)},
-                  {"skipped", count(JunitOutcome::kSkipped)},
-                  {"time", FormatFixed(suite.seconds, kTimeDecimals)}},
-                 cases);
+  Attributes attributes = TotalsOf({&suite, 1});
+  attributes.insert(attributes.begin(), {"name", suite.name});
+  return Element("testsuite", attributes, cases);
 }
 
 }  // namespace
@@ -198,7 +215,7 @@ std::string FormatJunit(const std::vector<JunitSuite>& suites) {
   std::vector<Element> elements;
   for (const JunitSuite& suite : suites) elements.push_back(MakeSuite(suite));
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
-         Element("testsuites", {}, elements).Format() + "\n";
+         Element("testsuites", TotalsOf(suites), elements).Format() + "\n";
 }
 
 }  // namespace regrasp::report

@@ -213,8 +213,10 @@ class Batch(ProgramCase):
         self.use_few()
         self.write("plans/broken.json", "{")
         self.run_batch(2, "--junit", "junit.xml")
-        suites = {suite.get("name"): suite
-                  for suite in ElementTree.parse(self.path("junit.xml")).getroot()}
+        root = ElementTree.parse(self.path("junit.xml")).getroot()
+        suites = {suite.get("name"): suite for suite in root}
+        for name in ("tests", "failures", "errors", "skipped"):
+            self.assertEqual(int(root.get(name)), sum(int(suite.get(name)) for suite in root))
         self.assertEqual(len(suites), 5)
         for plan in self.summary()["plans"]:
             suite = suites[plan["file"]]

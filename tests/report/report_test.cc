@@ -132,6 +132,18 @@ TEST(ReportTest, JunitTellsHowLongTheSuiteAndItsCasesTook) {
   EXPECT_THAT(xml, HasSubstr("name=\"step 2 align\" time=\"0.000\""));
 }
 
+TEST(ReportTest, JunitHasTheTotalsOfAllSuites) {
+  JunitSuite failed = MakeJunitSuite(MakeFailedReport(), "out");
+  JunitSuite passed = MakeJunitSuite(MakeReport(), "out");
+  passed.name = "other.json";
+  failed.seconds = 2.5;
+  passed.seconds = 1.25;
+  const std::string xml = FormatJunit({failed, passed});
+  EXPECT_THAT(xml, HasSubstr("<testsuites tests=\"6\" failures=\"1\" errors=\"0\" skipped=\"1\" "
+                             "time=\"3.750\">"));
+  EXPECT_THAT(xml, HasSubstr("classname=\"other.json\" file=\"other.json\" name=\"step 0 hold\""));
+}
+
 TEST(ReportTest, JunitHasACaseForEachStepAndEscapesText) {
   const std::string xml = FormatJunit({MakeJunitSuite(MakeFailedReport(), "out")});
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""));
