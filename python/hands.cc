@@ -90,6 +90,7 @@ py::tuple NearestOf(const PythonObject& object, const Values& points) {
 
 void BindHands(py::module_& module) {
   py::class_<PythonHand>(module, "Hand")
+      .def_property_readonly("sha256", [](const PythonHand& of) { return of.file.hand.sha256; })
       .def_property_readonly("name", [](const PythonHand& of) { return of.file.hand.name; })
       .def_property_readonly("file", [](const PythonHand& of) { return of.file.hand.file; })
       .def_property_readonly("fingers",

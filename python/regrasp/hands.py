@@ -13,12 +13,15 @@ from ._types import ArrayLike
 
 class Hand:
     """A hand, as described by its hand file and the model that the file names (docs/format_hand.md).
+
+    A pickle of it has the path of the hand file, and the files are read again.
     """
 
     def __init__(self, core: _regrasp.Hand):
         if not isinstance(core, _regrasp.Hand):
             raise TypeError("Hand cannot be constructed directly; help: use Hand.read")
         self._core = core
+        self._path = ""
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Hand:
@@ -30,7 +33,13 @@ class Hand:
         >>> Hand.read("models/hands/ring4.json").fingers
         ['finger0', 'finger1', 'finger2', 'finger3']
         """
-        return cls(_regrasp.read_hand(_arguments.path("path", path)))
+        path = _arguments.path("path", path)
+        hand = cls(_regrasp.read_hand(path))
+        hand._path = os.path.abspath(path)
+        return hand
+
+    def __reduce__(self):
+        return _read_again, (self._path, self._core.sha256)
 
     @property
     def name(self) -> str:
@@ -97,3 +106,11 @@ class Hand:
 
     def __repr__(self) -> str:
         return f"<Hand {self.name}: {len(self.fingers)} fingers, {len(self.joint_names)} joints>"
+
+
+def _read_again(path: str, sha256: str) -> Hand:
+    """Read the hand of a pickle."""
+    hand = Hand.read(path)
+    if hand._core.sha256 != sha256:
+        raise InputError(f"{path}: the hand file, its model or a mesh differs from the pickled hand")
+    return hand

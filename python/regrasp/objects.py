@@ -16,13 +16,15 @@ _SHELLS = {None: None, "union": _regrasp.Shells.union, "largest": _regrasp.Shell
 class Object:
     """An object to grasp: a closed surface mesh or a polygon. It is valid and immutable.
 
-    Made by `Object.read`, `Object.from_arrays` and `Object.from_polygon`.
+    Made by `Object.read`, `Object.from_arrays`, `Object.from_trimesh` and `Object.from_polygon`. It can be
+    pickled; the pickle of an object from a file has the path, and the file is read again.
     """
 
     def __init__(self, core: _regrasp.Object):
         if not isinstance(core, _regrasp.Object):
             raise TypeError("use Object.read, Object.from_arrays or Object.from_polygon")
         self._core = core
+        self._made: tuple = ()  # method, arguments and keywords, from which a pickle makes the object again
 
     @classmethod
     def read(cls, path: str | os.PathLike, *, scale: float = 1, repair: bool = False,
@@ -44,9 +46,10 @@ class Object:
         """
         shells = None if shells is None else _arguments.choice("shells", shells, ["union", "largest"])
         scale = _arguments.number("scale", scale, 0)
-        return cls(_regrasp.read_object(
-            _arguments.path("path", path), scale, _arguments.flag("repair", repair), _SHELLS[shells],
-            _arguments.callback("progress", progress)))
+        path = _arguments.path("path", path)
+        made = cls(_regrasp.read_object(path, scale, _arguments.flag("repair", repair), _SHELLS[shells],
+                                        _arguments.callback("progress", progress)))
+        return made._made_by("read", os.path.abspath(path), scale=scale, repair=repair, shells=shells)
 
     @classmethod
     def from_arrays(cls, vertices: ArrayLike, faces: ArrayLike, *, scale: float = 1,
@@ -80,8 +83,25 @@ class Object:
             place = tuple(int(i) for i in wrong[0])
             raise InputError(f"faces{list(place)} must be a vertex from 0 to {len(vertices) - 1}, "
                              f"found {faces[place]}")
-        return cls(_regrasp.object_from_arrays(
+        made = cls(_regrasp.object_from_arrays(
             vertices, faces, _arguments.number("scale", scale, 0), _arguments.text("name", name)))
+        return made._made_by("from_arrays", vertices, faces, scale=scale, name=name)
+
+    @classmethod
+    def from_trimesh(cls, mesh, *, scale: float = 1, name: str = "object.obj") -> Object:
+        """Make a solid from a mesh of the library trimesh, or of another one with the same members.
+
+        Args:
+            mesh: mesh with the arrays `vertices` (V, 3) and `faces` (F, 3).
+            scale, name: as in `from_arrays`.
+
+        Raises:
+            InputError: as `from_arrays`, or `mesh` lacks an array.
+        """
+        for member in ("vertices", "faces"):
+            if not hasattr(mesh, member):
+                raise InputError(f"mesh must have vertices and faces, found {_arguments.shown(mesh)}")
+        return cls.from_arrays(mesh.vertices, mesh.faces, scale=scale, name=name)
 
     @classmethod
     def from_polygon(cls, outline: ArrayLike, holes: Sequence[ArrayLike] = (), *, scale: float = 1,
@@ -114,9 +134,17 @@ class Object:
                                  f"found {corners.shape}")
             closed = [*corners.tolist(), corners[0].tolist()]
             rings.append("(" + ", ".join(f"{x!r} {y!r}" for x, y in closed) + ")")
-        return cls(_regrasp.object_from_wkt("POLYGON(" + ",\n".join(rings) + ")\n",
+        made = cls(_regrasp.object_from_wkt("POLYGON(" + ",\n".join(rings) + ")\n",
                                             _arguments.number("scale", scale, 0),
                                             _arguments.text("name", name)))
+        return made._made_by("from_polygon", outline, holes, scale=scale, name=name)
+
+    def _made_by(self, method: str, *arguments, **keywords) -> Object:
+        self._made = method, arguments, keywords
+        return self
+
+    def __reduce__(self):
+        return _made_again, (self._made, self.sha256)
 
     def nearest(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Project points onto the surface, on all processors.
@@ -208,3 +236,13 @@ class Object:
     def __repr__(self) -> str:
         what = "faces" if self.dimension == 3 else "edges"
         return f"<Object {self.name}: {self.face_count} {what}, {self._core.size_text}>"
+
+
+def _made_again(made: tuple, sha256: str) -> Object:
+    """Make the object of a pickle."""
+    method, arguments, keywords = made
+    object = getattr(Object, method)(*arguments, **keywords)
+    if object.sha256 != sha256:
+        raise InputError(f"{object.name}: differs from the pickled object, expected SHA-256 {sha256[:12]}…, "
+                         f"found {object.sha256[:12]}…")
+    return object

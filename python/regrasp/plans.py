@@ -8,6 +8,8 @@ import math
 import os
 from collections.abc import Sequence
 
+import numpy as np
+
 from . import _arguments, _html, _regrasp
 from ._regrasp import InputError
 from ._types import ArrayLike, GivenGrasp, Progress
@@ -49,15 +51,23 @@ class Plan:
         self.notes: list[str] = []
 
     @classmethod
-    def read(cls, path: str | os.PathLike) -> Plan:
+    def read(cls, path: str | os.PathLike, *, object: Object | None = None) -> Plan:
         """Read a plan file.
+
+        Args:
+            path: path of the file.
+            object: object of the plan, which becomes `Plan.object`.
 
         Raises:
             InputError: the file is not a plan.
             OSError: the file cannot be read.
         """
         path = _arguments.path("path", path)
-        return cls(_text_of(path), os.path.basename(path))
+        if object is not None:
+            _arguments.of_type("object", object, Object)
+        plan = cls(_text_of(path), os.path.basename(path))
+        plan.object = object
+        return plan
 
     def write(self, path: str | os.PathLike) -> None:
         """Write the plan file."""

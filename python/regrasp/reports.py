@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import numpy as np
 
@@ -75,6 +76,27 @@ class Report:
             A page that needs no other file and no network, about 1 MB.
         """
         return self._core.format_page(self._object._core, False)
+
+    def write(self, folder: str | os.PathLike, size: tuple[int, int] = (1280, 960)) -> None:
+        """Write the report to a folder, which is created if it does not exist.
+
+        Writes report.json, report.html (`page`), overview.png and the frames as 000.png, 001.png, ….
+
+        Args:
+            folder: path of the folder; its files of these names are replaced.
+            size: width and height of the frames, pixels.
+
+        Raises:
+            OSError: a file cannot be written.
+        """
+        folder = _arguments.path("folder", folder)
+        frames, overview = self.frames(size), self.overview(size)
+        os.makedirs(folder, exist_ok=True)
+        files = {"report.json": self.text.encode(), "report.html": self.page().encode(),
+                 "overview.png": _regrasp.encode_png(overview)}
+        files.update((f"{i:03}.png", _regrasp.encode_png(frame)) for i, frame in enumerate(frames))
+        for name, content in files.items():
+            _regrasp.write_file(os.path.join(folder, name), content)
 
     def _draw(self, size):
         try:

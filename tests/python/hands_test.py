@@ -2,6 +2,8 @@
 
 import json
 import os
+import pickle
+import shutil
 import signal
 import subprocess
 import threading
@@ -110,6 +112,28 @@ class HandsTest(RegraspCase):
             regrasp.plan_in_hand(self.cube, self.hand, mu=0.3, turn=("z", 90))
         self.assertIn("(slipped): finger", str(caught.exception))
 
+    def test_gravity_of_the_plan(self):
+        """The programs find and write the same plan."""
+        for given, option in (([0, 0, 2.0], "0,0,2"), ("any", "any")):
+            plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30), gravity=given)
+            subprocess.run([f"{PROGRAMS}/plan", "--object", "models/cube.obj", "--hand", "models/hands/ring4.json",
+                            "--mu", "0.8", "--turn", "z,30", f"--gravity={option}", "--quiet", "--output",
+                            self.path("plan.json")], check=True)
+            with open(self.path("plan.json"), encoding="utf-8") as file:
+                self.assertEqual(plan.text, file.read())
+            self.assertEqual(plan.data["hand"].get("up"), None if given == "any" else [0, 0, -1])
+            self.assertTrue(regrasp.validate(self.cube, plan, hand=self.hand).passed)
+
+    def test_a_pickle_of_a_hand(self):
+        again = pickle.loads(pickle.dumps(self.hand))
+        self.assertEqual((again.name, again.joint_names), (self.hand.name, self.hand.joint_names))
+        for name in ("ring4.json", "ring4.xml"):
+            shutil.copy(os.path.join("models/hands", name), self.path(name))
+        kept = pickle.dumps(regrasp.Hand.read(self.path("ring4.json")))
+        with open(self.path("ring4.xml"), "a", encoding="utf-8") as file:
+            file.write("<!-- changed -->")
+        self.refuses(["ring4.json", "differs from the pickled hand"], lambda: pickle.loads(kept))
+
     def test_arguments_about_hands_that_are_wrong_are_named(self):
         gear = regrasp.Object.read("models/gear128.wkt")
 
@@ -133,6 +157,10 @@ class HandsTest(RegraspCase):
         plan("start", "3 to 4 contacts", "found 2", turn=("z", 9),
              start=[[.03, 0, 0], [-.03, 0, 0]])
         plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
+        plan("gravity", "zero", gravity=[0, 0, 0], turn=("z", 9))
+        plan("gravity", "'any'", gravity="up", turn=("z", 9))
+        plan("gravity", "goals", gravity="any", goals=[])
+        plan("optimize", "'margin'", optimize="travel", turn=("z", 9))
         plan("clearance", "0.05", clearance=1, turn=("z", 9))
         plan("jobs", "from 1 to 1024", jobs=0, turn=("z", 9))
         self.refuses(["hand", "not a plan for a hand"], lambda: regrasp.validate(

@@ -1,6 +1,8 @@
 """Objects from files and from arrays."""
 
 import hashlib
+import pickle
+import types
 import unittest
 
 import numpy as np
@@ -36,6 +38,28 @@ class ObjectsTest(RegraspCase):
         self.assertEqual(read.name, cube.name)
         np.testing.assert_array_equal(read.vertices, cube.vertices)
         self.assertEqual(read.measure, cube.measure)
+
+    def test_a_pickle_makes_the_object_again(self):
+        cube = regrasp.Object.from_arrays(CORNERS / 3, FACES, scale=0.5, name="third.obj")
+        square = regrasp.Object.from_polygon([[0, 0], [2, 0], [2, 1], [0, 1]])
+        cube.write(self.path("file.obj"))
+        read = regrasp.Object.read(self.path("file.obj"), scale=0.5)
+        for made in (cube, square, read):
+            again = pickle.loads(pickle.dumps(made))
+            self.assertEqual((again.sha256, again.name, again.scale, again.measure),
+                             (made.sha256, made.name, made.scale, made.measure))
+            np.testing.assert_array_equal(again.vertices, made.vertices)
+        kept = pickle.dumps(read)
+        regrasp.Object.from_arrays(CORNERS, FACES).write(self.path("file.obj"))
+        with self.assertRaisesRegex(regrasp.InputError, "file.obj: differs from the pickled object"):
+            pickle.loads(kept)
+
+    def test_a_mesh_of_trimesh(self):
+        mesh = types.SimpleNamespace(vertices=CORNERS, faces=FACES)
+        made = regrasp.Object.from_trimesh(mesh, scale=0.1)
+        self.assertEqual(made.sha256, regrasp.Object.from_arrays(CORNERS, FACES).sha256)
+        with self.assertRaisesRegex(regrasp.InputError, "mesh must have vertices and faces"):
+            regrasp.Object.from_trimesh(CORNERS)
 
     def test_other_kinds_of_arrays(self):
         for vertices, faces in [(CORNERS.astype(np.float32), FACES.astype(np.uint8)),

@@ -1,6 +1,7 @@
 """Plans and their validation: agreement with the programs, and invalid arguments."""
 
 import json
+import pickle
 import os
 import signal
 import subprocess
@@ -53,6 +54,20 @@ class PlansTest(RegraspCase):
             told = json.load(file)
         told.pop("run")
         self.assertEqual(regrasp.validate(self.cube, self.plan).data, told)
+
+    def test_pickles_and_files_of_plans_and_reports(self):
+        again = pickle.loads(pickle.dumps(self.plan))
+        self.assertEqual((again.text, again.name, again.object.sha256), (self.plan.text, self.plan.name, self.cube.sha256))
+        self.plan.write(self.path("plan.json"))
+        read = regrasp.Plan.read(self.path("plan.json"), object=self.cube)
+        self.assertIs(read.object, self.cube)
+        self.refuses(["object", "Object"], lambda: regrasp.Plan.read(self.path("plan.json"), object="cube.obj"))
+        report = regrasp.validate(self.cube, self.plan)
+        report.write(self.path("new/report"), (160, 120))
+        names = ["overview.png", "report.html", "report.json"] + [f"{i:03}.png" for i in range(len(report.steps))]
+        self.assertEqual(sorted(os.listdir(self.path("new/report"))), sorted(names))
+        with open(self.path("new/report/report.json"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), report.text)
 
     def test_a_plan_for_another_size_of_the_object_is_refused(self):
         small = regrasp.Object.read("models/cube.obj", scale=0.5)
