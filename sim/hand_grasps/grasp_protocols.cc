@@ -58,7 +58,8 @@ class GraspTester {
     world.Place(grasp.grasp);
     verdict_.touches = geometry.Measure(world);
     verdict_.distance_m = SmallestDistance(verdict_.touches);
-    target_ = world.WithinRange(grasp.target ? *grasp.target : DerivedTarget());
+    // A target of the data set may exceed joint ranges, because it is a command.
+    target_ = grasp.target ? *grasp.target : world.WithinRange(DerivedTarget());
   }
 
   void Run(GraspProtocol protocol) {
@@ -167,13 +168,11 @@ class GraspTester {
   }
 
   void Bench(ProtocolResult& result) {
-    double distance = verdict_.distance_m;
-    if (grasp_.pregrasp) {
-      closed_.reset();
-      world_.Place(*grasp_.pregrasp);
-      distance = SmallestDistance(geometry_.Measure(world_));
-    }
-    if (distance < -kBenchDepth) {
+    closed_.reset();
+    world_.Place(grasp_.pregrasp ? *grasp_.pregrasp : grasp_.grasp);
+    const double distance =
+        grasp_.pregrasp ? SmallestDistance(geometry_.Measure(world_)) : verdict_.distance_m;
+    if (std::min(distance, world_.SelfDistance()) < -kBenchDepth) {
       result.fault = GraspFault::kPenetrates;
       return;
     }

@@ -377,6 +377,17 @@ bool GraspWorld::IsTouched() const {
   return false;
 }
 
+double GraspWorld::SelfDistance() const {
+  double smallest = 0;
+  for (int i = 0; i < data_->ncon; ++i) {
+    const mjContact& contact = data_->contact[i];
+    const bool is_of_hand = model_->geom_bodyid[contact.geom1] != object_body_ &&
+                            model_->geom_bodyid[contact.geom2] != object_body_;
+    if (contact.exclude == 0 && is_of_hand) smallest = std::min(smallest, contact.dist);
+  }
+  return smallest;
+}
+
 std::map<std::string, double> GraspWorld::JointMotion(int link, const Vector3d& point,
                                                       const Vector3d& direction) const {
   const mjModel& model = *model_;
