@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <list>
 #include <map>
 #include <memory>
@@ -15,7 +14,7 @@
 #include <vector>
 
 #include "apps/batch/object_cache.h"
-#include "apps/evaluate_table.h"
+#include "apps/evaluate_files.h"
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
@@ -100,8 +99,8 @@ Json ResultJson(const sim::ProtocolResult& result) {
   return json;
 }
 
-Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
-                 const std::string& likely_cause) {
+Json VerdictJson(const sim::HandGrasp& grasp, const std::string& hand,
+                 const sim::GraspVerdict& verdict, const std::string& likely_cause) {
   const sim::GraspFault fault = verdict.fault();
   const bool passed = fault == sim::GraspFault::kNone;
   Json json = {{"format", "regrasp-hand-grasp-report"},
@@ -112,6 +111,7 @@ Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
   if (!likely_cause.empty()) json["likely_cause"] = likely_cause;
   if (!grasp.set.empty()) json["set"] = grasp.set;
   json["object"] = {{"file", grasp.object_file}, {"scale", grasp.scale}};
+  json["hand"] = hand;
   if (grasp.claimed) json["claimed"] = *grasp.claimed;
   if (grasp.score) json["score"] = *grasp.score;
   json["distance_mm"] = Rounded(kMillimetres * verdict.distance_m);
@@ -132,7 +132,10 @@ Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
 class EvaluateLines {
  public:
   explicit EvaluateLines(const EvaluateOptions& options)
-      : options_(options), finder_(options.object), hand_(sim::ReadWholeHand(options.hand)) {}
+      : options_(options),
+        files_(SortEvaluateOutputs(options)),
+        finder_(options.object),
+        hand_(sim::ReadWholeHand(options.hand)) {}
 
   int Run() {
     CheckFiles();
@@ -141,7 +144,7 @@ class EvaluateLines {
     run.program = kEvaluateName;
     run.content = "reports";
     run.input = options_.grasps;
-    run.output = options_.output;
+    run.output = files_.reports;
     run.shard = options_.shard;
     run.digest = [this](const std::string& source) { return CommonDigest(source); };
     run.jobs = options_.jobs;
@@ -157,17 +160,17 @@ class EvaluateLines {
       return EntryDigest(common_ + PiecesDigest(object, line), line, object, finder_);
     };
     const int code = RunLinesFile(run);
-    if (code <= kExitBadInput && !options_.quiet) {
-      std::cout << FormatEvaluateTable(ReadEvaluateCounts(options_.output));
-    }
+    if (code <= kExitBadInput) WriteEvaluateFiles(files_, options_);
     return code;
   }
 
  private:
   void CheckFiles() const {
     OutputFiles outputs;
-    outputs.Add("--output", options_.output);
-    outputs.Add("--output", options_.output + kPartEnding);
+    for (const std::string& file :
+         {files_.reports, files_.reports + kPartEnding, files_.table, files_.page}) {
+      outputs.Add("--output", file);
+    }
     CheckOutputsDiffer(
         {{"--grasps", options_.grasps}, {"--hand", options_.hand}, {"--object", options_.object}},
         outputs);
@@ -272,10 +275,11 @@ class EvaluateLines {
     if (verdict.distance_m > sim::GraspGeometry::kContactDistance) {
       cause = sim::LikelyConvention(grasp, *prepared.geometry, *prepared.world);
     }
-    return FormatRecord(line.entry, VerdictJson(grasp, verdict, cause));
+    return FormatRecord(line.entry, VerdictJson(grasp, hand_.name, verdict, cause));
   }
 
   EvaluateOptions options_;
+  EvaluateFiles files_;
   ObjectFinder finder_;
   sim::WholeHand hand_;
   ObjectCache objects_;

@@ -15,7 +15,8 @@ struct EvaluateOptions {
   std::string grasps;  ///< file of hand grasps, JSON Lines
   std::string hand;
   std::string object;  ///< object file, or a folder of object files
-  std::string output;  ///< JSON Lines
+  /// Files of the results: JSON Lines, or by suffix CSV (.csv) and HTML (.html).
+  std::vector<std::string> outputs;
   std::vector<sim::GraspProtocol> protocols;
   sim::GraspTest test;
   std::string shard;

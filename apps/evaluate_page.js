@@ -1,0 +1,77 @@
+'use strict';
+(() => {
+  const table = document.getElementById('grasps');
+  if (!table) return;
+  const body = table.tBodies[0];
+  let rows = Array.from(body.rows);
+  const element = (tag, properties, ...children) => {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+  };
+  const search = element('input', {type: 'search', id: 'filter-text', size: 32});
+  const choice = element('select', {id: 'filter-verdict'});
+  const verdicts = Array.from(new Set(rows.map((row) => row.dataset.verdict)));
+  for (const [value, name] of [['', 'all'], ...verdicts.map((verdict) => [verdict, verdict]),
+                               ['differs', 'claim differs']]) {
+    choice.append(element('option', {value}, name));
+  }
+  const count = element('output', {id: 'filter-count'});
+  const controls = element('p', {className: 'filter'},
+      element('label', {}, 'Text ', search), element('label', {}, 'Verdict ', choice), count);
+  table.parentNode.before(controls);
+
+  const texts = new Map();
+  const textOf = (row) => {
+    if (!texts.has(row)) {
+      texts.set(row, Array.from(row.cells, (cell) => cell.textContent).join(' ').toLowerCase());
+    }
+    return texts.get(row);
+  };
+  const isShown = (row, words, verdict) =>
+    (verdict === '' || (verdict === 'differs' ? row.dataset.differs === 'true'
+                                              : row.dataset.verdict === verdict)) &&
+    words.every((word) => textOf(row).includes(word));
+  const filter = () => {
+    const words = search.value.toLowerCase().split(/\s+/).filter((word) => word !== '');
+    let shown = 0;
+    for (const row of rows) {
+      row.hidden = !isShown(row, words, choice.value);
+      if (!row.hidden) ++shown;
+    }
+    count.textContent = ` ${shown} of ${rows.length} grasps`;
+  };
+  search.addEventListener('input', filter);
+  choice.addEventListener('change', filter);
+  filter();
+
+  const heads = Array.from(table.tHead.rows[0].cells);
+  const valueOf = (row, column, number) => {
+    const text = row.cells[column].textContent;
+    if (!number) return text;
+    const value = parseFloat(text);
+    return Number.isNaN(value) ? null : value;
+  };
+  const sort = (column) => {
+    const head = heads[column];
+    const sign = head.getAttribute('aria-sort') === 'ascending' ? -1 : 1;
+    const number = head.classList.contains('number');
+    const keyed = rows.map((row, place) => [valueOf(row, column, number), place, row]);
+    const collator = new Intl.Collator('en', {numeric: true});
+    keyed.sort(([a, i], [b, j]) => {
+      if (number && (a === null || b === null)) return (a === null) - (b === null) || i - j;
+      return sign * (number ? a - b : collator.compare(a, b)) || i - j;
+    });
+    rows = keyed.map(([, , row]) => row);
+    const sorted = document.createDocumentFragment();
+    sorted.append(...rows);
+    body.append(sorted);
+    for (const other of heads) other.removeAttribute('aria-sort');
+    head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
+  };
+  heads.forEach((head, column) => {
+    const button = element('button', {type: 'button'}, ...head.childNodes);
+    button.addEventListener('click', () => sort(column));
+    head.append(button);
+  });
+})();
