@@ -72,7 +72,8 @@ PythonGraspWorld MakeGraspWorld(const std::filesystem::path& hand, const PythonO
 
 std::vector<std::string> LinkNames(const PythonGraspWorld& of) {
   std::vector<std::string> names;
-  for (const int link : of.world->links()) names.push_back(kinematics::BodyName(of.world->model(), link));
+  for (const int link : of.world->links())
+    names.push_back(kinematics::BodyName(of.world->model(), link));
   return names;
 }
 
@@ -111,7 +112,8 @@ struct ResultArrays {
       if (result.moved_m) moved.mutable_at(grasp) = *result.moved_m;
       if (result.rotated_deg) rotated.mutable_at(grasp) = *result.rotated_deg;
       for (std::size_t i = 0; i < result.seconds.size(); ++i) {
-        if (result.seconds[i]) seconds.mutable_at(grasp, static_cast<py::ssize_t>(i)) = *result.seconds[i];
+        if (result.seconds[i])
+          seconds.mutable_at(grasp, static_cast<py::ssize_t>(i)) = *result.seconds[i];
       }
       for (std::size_t i = 0; i < result.resisted_N.size(); ++i) {
         resisted.mutable_at(grasp, static_cast<py::ssize_t>(i)) = result.resisted_N[i];
