@@ -367,6 +367,14 @@ Isometry3d GraspWorld::palm_pose() const {
   return kinematics::PoseAt(data_->xpos, data_->xmat, palm_);
 }
 
+std::map<std::string, double> GraspWorld::joint_positions() const {
+  std::map<std::string, double> positions;
+  for (const auto& [name, joint] : joint_ids_) {
+    positions[name] = data_->qpos[model_->jnt_qposadr[joint]];
+  }
+  return positions;
+}
+
 bool GraspWorld::IsTouched() const {
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];
