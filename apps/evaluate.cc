@@ -65,6 +65,10 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();
+  app.add_option(
+         "--images", options.images,
+         "Folder of an image per grasp: hand, object and contacts. The page has links to them")
+      ->type_name("FOLDER");
   app.add_option("--shard", options.shard, "Part I of N of the grasps. `merge` joins the results")
       ->type_name("I/N");
   AddInteger(app, "-j,--jobs", options.jobs, 1, kMostProcesses,

@@ -27,7 +27,8 @@ std::string JoinedLine(const std::vector<std::string>& cells) {
 
 std::string CsvCell(std::string_view text) {
   std::string cell(text);
-  if (!cell.empty() && kFormula.find(cell.front()) != std::string_view::npos) cell.insert(0, 1, '\'');
+  if (!cell.empty() && kFormula.find(cell.front()) != std::string_view::npos)
+    cell.insert(0, 1, '\'');
   if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
   std::string quoted = "\"";
   for (const char c : cell) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -35,10 +36,10 @@ std::string CsvCell(std::string_view text) {
 }
 
 std::string GraspCsvHeader() {
-  std::vector<std::string> names = {
-      "file",    "index", "id",          "set",   "object",      "scale",   "hand", "verdict",
-      "claimed", "score", "reason",      "likely_cause", "distance_mm", "penetration_mm",
-      "contacts"};
+  std::vector<std::string> names = {"file",        "index",          "id",      "set",
+                                    "object",      "scale",          "hand",    "verdict",
+                                    "claimed",     "score",          "reason",  "likely_cause",
+                                    "distance_mm", "penetration_mm", "contacts"};
   for (const std::string_view protocol : kProtocolNames) {
     names.emplace_back(protocol);
     names.push_back(std::string(protocol) + "_reason");

@@ -66,7 +66,12 @@ void WriteEvaluateFiles(const EvaluateFiles& files, const EvaluateOptions& optio
   const std::string grasps = std::filesystem::path(options.grasps).filename().string();
   if (!files.table.empty()) WriteTable(files, grasps);
   if (!files.page.empty()) {
-    WriteFile(files.page, FormatGraspPage(files.reports, {.grasps = grasps, .images = ""}));
+    const std::filesystem::path folder = std::filesystem::absolute(files.page).parent_path();
+    const std::string images =
+        options.images.empty()
+            ? ""
+            : std::filesystem::absolute(options.images).lexically_relative(folder).string();
+    WriteFile(files.page, FormatGraspPage(files.reports, {.grasps = grasps, .images = images}));
   }
   if (!options.quiet) std::cout << FormatEvaluateTable(ReadEvaluateCounts(files.reports));
   std::error_code error;

@@ -15,6 +15,7 @@
 
 #include "apps/batch/object_cache.h"
 #include "apps/evaluate_files.h"
+#include "apps/evaluate_page.h"
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
@@ -22,7 +23,10 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
+#include "planner/base/text_table.h"
+#include "planner/kinematics/hand_visuals.h"
 #include "planner/object/polyhedron.h"
+#include "render/frames/grasp_image.h"
 #include "sim/hand_grasps/grasp_conventions.h"
 
 namespace regrasp::apps {
@@ -31,6 +35,8 @@ namespace {
 
 constexpr double kMillimetres = 1000;
 constexpr std::size_t kMostWorlds = 8;
+/// Width and height of images, pixels.
+constexpr int kImageSize = 640;
 /// Number of decimals of lengths in millimetres, and of other measured values.
 constexpr int kDecimals = 3;
 
@@ -171,10 +177,14 @@ class EvaluateLines {
          {files_.reports, files_.reports + kPartEnding, files_.table, files_.page}) {
       outputs.Add("--output", file);
     }
+    if (!options_.images.empty()) {
+      outputs.folders.push_back({"--images", options_.images, IsGraspImageName});
+    }
     CheckOutputsDiffer(
         {{"--grasps", options_.grasps}, {"--hand", options_.hand}, {"--object", options_.object}},
         outputs);
     CheckOutputsWritable(outputs);
+    if (!options_.images.empty()) std::filesystem::create_directories(options_.images);
   }
 
   [[nodiscard]] std::string CommonDigest(const std::string& source) const {
@@ -186,6 +196,7 @@ class EvaluateLines {
     }
     digest.Add("mu", FormatDouble(options_.test.mu));
     digest.Add("mass", FormatDouble(options_.test.mass_kg));
+    if (!options_.images.empty()) digest.Add("images", options_.images);
     return digest.Finish();
   }
 
@@ -275,7 +286,28 @@ class EvaluateLines {
     if (verdict.distance_m > sim::GraspGeometry::kContactDistance) {
       cause = sim::LikelyConvention(grasp, *prepared.geometry, *prepared.world);
     }
+    if (!options_.images.empty()) DrawImage(line, grasp, verdict, object, *prepared.world);
     return FormatRecord(line.entry, VerdictJson(grasp, hand_.name, verdict, cause));
+  }
+
+  /// Write the image of a grasp.
+  /// @throws EnvironmentError  if it cannot be drawn or written.
+  void DrawImage(const Line& line, const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
+                 const object::Object& object, sim::GraspWorld& world) const {
+    world.Place(grasp.grasp);
+    render::GraspScene scene;
+    scene.hand = kinematics::VisualsAt(*hand_.compiled, hand_.palm, world.joint_positions());
+    scene.palm = grasp.grasp.palm;
+    scene.scale = grasp.scale;
+    for (const sim::LinkTouch& touch : verdict.touches) {
+      for (const auto& contact : touch.contacts) scene.contacts.push_back(contact.point);
+    }
+    const sim::GraspFault fault = verdict.fault();
+    const std::string caption =
+        OneLine(grasp.id) +
+        (fault == sim::GraspFault::kNone ? ": pass" : ": " + std::string(GraspFaultName(fault)));
+    render::WritePng(std::filesystem::path(options_.images) / GraspImageName(line.entry),
+                     render::DrawGraspScene(scene, object, caption, kImageSize));
   }
 
   EvaluateOptions options_;

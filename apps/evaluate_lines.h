@@ -17,6 +17,7 @@ struct EvaluateOptions {
   std::string object;  ///< object file, or a folder of object files
   /// Files of the results: JSON Lines, or by suffix CSV (.csv) and HTML (.html).
   std::vector<std::string> outputs;
+  std::string images;  ///< folder of an image per grasp; empty: none
   std::vector<sim::GraspProtocol> protocols;
   sim::GraspTest test;
   std::string shard;

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/evaluate_page_script.h"
 #include "apps/evaluate_rows.h"
 #include "apps/evaluate_table.h"
-#include "apps/evaluate_page_script.h"
 #include "planner/base/number.h"
 #include "report/page/html_page.h"
 #include "report/page/step_table.h"
@@ -162,8 +162,8 @@ Element CountsTable(const std::vector<TextRow>& texts) {
 std::string Summary(const PageRows& rows) {
   std::string text = std::to_string(rows.count) + " grasps";
   for (const auto& [verdict, count] : rows.by_verdict) {
-    text += (verdict == rows.by_verdict.begin()->first ? ": " : ", ") + std::to_string(count) + " " +
-            verdict;
+    text += (verdict == rows.by_verdict.begin()->first ? ": " : ", ") + std::to_string(count) +
+            " " + verdict;
   }
   return text + ".";
 }
@@ -175,6 +175,13 @@ std::string GraspImageName(std::int64_t index) {
   std::string number = std::to_string(index);
   if (number.size() < kDigits) number.insert(0, kDigits - number.size(), '0');
   return number + ".png";
+}
+
+bool IsGraspImageName(const std::string& name) {
+  constexpr std::string_view kEnding = ".png";
+  if (!name.ends_with(kEnding)) return false;
+  const std::string_view number = std::string_view(name).substr(0, name.size() - kEnding.size());
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 std::string FormatGraspPage(const std::filesystem::path& reports, const GraspPage& page) {
@@ -193,9 +200,9 @@ std::string FormatGraspPage(const std::filesystem::path& reports, const GraspPag
   }
   Element body("tbody");
   for (const GraspRow& row : rows.rows) body.Add(rows.columns.Row(row, page.images));
-  parts.push_back(Element("div", {{"class", "scroll"}},
-                          Element("table", {{"id", "grasps"}},
-                                  Element("thead", {}, rows.columns.Head()), body)));
+  parts.push_back(Element(
+      "div", {{"class", "scroll"}},
+      Element("table", {{"id", "grasps"}}, Element("thead", {}, rows.columns.Head()), body)));
   const std::array<std::string_view, 1> scripts = {kGraspPageScript};
   return report::FormatHtmlPage("Evaluation of " + page.grasps, parts,
                                 report::PictureSource::kInPage, scripts, kGraspPageStyle);

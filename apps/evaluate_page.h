@@ -11,12 +11,15 @@ inline constexpr std::size_t kMostPageRows = 50'000;
 
 /// Content of the page that is not in the reports.
 struct GraspPage {
-  std::string grasps;    ///< name of the file of the grasps
+  std::string grasps;  ///< name of the file of the grasps
   std::string images;  ///< path of the folder of images, relative to the page; empty: none
 };
 
 /// Return the file name of the image of a grasp, "000017.png".
 [[nodiscard]] std::string GraspImageName(std::int64_t index);
+
+/// Return whether GraspImageName returns this name for any grasp.
+[[nodiscard]] bool IsGraspImageName(const std::string& name);
 
 /// Return an HTML page with the counts of a file of reports and one row per grasp.
 ///

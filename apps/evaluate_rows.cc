@@ -38,7 +38,8 @@ void ReadResult(const JsonReader& json, GraspRow& row) {
   const std::string name = json.Member("protocol").String();
   const auto* const found = std::ranges::find(kProtocolNames, name);
   if (found == kProtocolNames.end()) {
-    json.Member("protocol").Fail("protocol not supported, found " + json.Member("protocol").Quoted());
+    json.Member("protocol")
+        .Fail("protocol not supported, found " + json.Member("protocol").Quoted());
   }
   ProtocolCell& cell = row.results[static_cast<std::size_t>(found - kProtocolNames.begin())];
   cell.verdict = json.Member("verdict").String();
@@ -89,8 +90,7 @@ bool GraspRow::differs_from_claim() const {
   return claimed && (verdict == "pass" || verdict == "fail") && *claimed != (verdict == "pass");
 }
 
-void ReadGraspRows(const std::filesystem::path& path,
-                   const std::function<void(GraspRow)>& visit) {
+void ReadGraspRows(const std::filesystem::path& path, const std::function<void(GraspRow)>& visit) {
   LinesInput input(path);
   while (const std::optional<Line> line = input.Next()) {
     GraspRow row;

@@ -35,8 +35,8 @@ struct GraspRow {
   std::string likely_cause;  ///< violated convention
   std::optional<bool> claimed;
   std::optional<double> score;
-  std::optional<double> distance_mm;                     ///< smallest signed distance
-  std::vector<std::pair<std::string, int>> links;        ///< links in contact, number of contacts
+  std::optional<double> distance_mm;               ///< smallest signed distance
+  std::vector<std::pair<std::string, int>> links;  ///< links in contact, number of contacts
   std::array<ProtocolCell, kProtocolNames.size()> results;  ///< in the order of kProtocolNames
 
   /// Depth of the deepest link, in millimetres.
@@ -49,7 +49,6 @@ struct GraspRow {
 
 /// Read the rows of a file in its order. Memory use does not depend on its size.
 /// @throws InputError  if the file is not one that `evaluate` wrote.
-void ReadGraspRows(const std::filesystem::path& path,
-                   const std::function<void(GraspRow)>& visit);
+void ReadGraspRows(const std::filesystem::path& path, const std::function<void(GraspRow)>& visit);
 
 }  // namespace regrasp::apps

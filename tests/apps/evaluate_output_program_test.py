@@ -11,6 +11,7 @@ import hand_grasp_files
 import program_case
 from browser import Browser
 from hand_grasp_files import grasp
+from picture_pixels import png_pixels, png_size
 from program_case import ProgramCase
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
@@ -109,6 +110,25 @@ class EvaluateOutput(OutputCase):
         self.evaluated([grasp("a")], "r.jsonl", "t2.csv", code=0)
         self.assertIn("1 kept", self.evaluated([grasp("a")], "r.jsonl", "t2.csv", code=0).stderr)
 
+    def test_each_grasp_has_an_image_that_the_page_links(self):
+        text = hand_grasp_files.lines([grasp("hold"), grasp("open", 0.0)]) + "{}\n"
+        self.evaluated(text, "p.html", code=2, more=["--images", "images"])
+        self.assertEqual(sorted(os.listdir(self.path("images"))), ["000001.png", "000002.png"])
+        links = [link.get("href") for link in self.page().iter(XHTML + "a")]
+        self.assertEqual(links, ["images/000002.png", "images/000001.png"])
+        pictures = [self.read(f"images/{name}") for name in ("000001.png", "000002.png")]
+        colors = [{color for row in png_pixels(picture) for color in row} for picture in pictures]
+        for picture, found in zip(pictures, colors):
+            self.assertEqual(png_size(picture), (640, 640))
+            # Object, hand and text on white.
+            self.assertGreater(len(found), 50)
+        # Only the first grasp has contacts, which are red.
+        red = [any(r > 180 and g < 60 and b < 60 for r, g, b in found) for found in colors]
+        self.assertEqual(red, [True, False])
+        os.remove(self.path("images/000001.png"))
+        self.evaluated(text, "p.html", code=2, more=["--images", "images"])
+        self.assertEqual(self.read("images/000001.png"), pictures[0])
+
     def test_wrong_combinations_are_refused(self):
         self.write("grasps.jsonl", hand_grasp_files.lines([grasp("a")]))
         start = ["--grasps", "grasps.jsonl", "--hand", "gripper.json", "--object", "objects"]
@@ -116,6 +136,8 @@ class EvaluateOutput(OutputCase):
         self.assert_refused(2, "--output: expected one JSON Lines file, found a and b", *start, "-o", "a", "-o", "b")
         self.assert_refused(2, "--shard requires an output in JSON Lines, found a.html", *start, "-o", "a.html", "--shard", "1/2")
         self.assert_refused(2, "--output", *start, "-o", "grasps.jsonl", "-o", "a.html")
+        self.write("file", "")
+        self.assert_refused(3, "file", *start, "-o", "a.html", "--images", "file")
 
 
 class EvaluatePage(OutputCase):
