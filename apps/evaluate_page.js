@@ -17,8 +17,11 @@
     choice.append(element('option', {value}, name));
   }
   const count = element('output', {id: 'filter-count'});
+  // Rows that are shown at once, as in evaluate_page.css.
+  let limit = 500;
+  const all = element('button', {type: 'button', id: 'filter-all'}, 'Show all');
   const controls = element('p', {className: 'filter'},
-      element('label', {}, 'Text ', search), element('label', {}, 'Verdict ', choice), count);
+      element('label', {}, 'Text ', search), element('label', {}, 'Verdict ', choice), count, all);
   table.parentNode.before(controls);
 
   const texts = new Map();
@@ -28,22 +31,25 @@
     }
     return texts.get(row);
   };
-  const isShown = (row, words, verdict) =>
+  const isFound = (row, words, verdict) =>
     (verdict === '' || (verdict === 'differs' ? row.dataset.differs === 'true'
                                               : row.dataset.verdict === verdict)) &&
     words.every((word) => textOf(row).includes(word));
   const filter = () => {
     const words = search.value.toLowerCase().split(/\s+/).filter((word) => word !== '');
-    let shown = 0;
-    for (const row of rows) {
-      row.hidden = !isShown(row, words, choice.value);
-      if (!row.hidden) ++shown;
-    }
-    count.textContent = ` ${shown} of ${rows.length} grasps`;
+    let found = 0;
+    for (const row of rows) row.hidden = !isFound(row, words, choice.value) || ++found > limit;
+    count.textContent = ` ${found} of ${rows.length} grasps` + (found > limit ? `, first ${limit} shown` : '');
+    all.hidden = found <= limit;
   };
+  all.addEventListener('click', () => {
+    limit = Infinity;
+    filter();
+  });
   search.addEventListener('input', filter);
   choice.addEventListener('change', filter);
   filter();
+  table.classList.add('managed');
 
   const heads = Array.from(table.tHead.rows[0].cells);
   const valueOf = (row, column, number) => {
@@ -64,7 +70,8 @@
     });
     rows = keyed.map(([, , row]) => row);
     const sorted = document.createDocumentFragment();
-    sorted.append(...rows);
+    for (const row of rows) sorted.append(row);
+    filter();
     body.append(sorted);
     for (const other of heads) other.removeAttribute('aria-sort');
     head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');

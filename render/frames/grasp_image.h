@@ -20,8 +20,8 @@ struct GraspScene {
 
 /// Draw a grasp: the object, the translucent hand around it, and its contacts.
 ///
-/// The view is oblique, from the side of the object that is away from the palm. Deterministic: the same scene gives the same
-/// bytes.
+/// The view is oblique, from the side of the object that is away from the palm. Deterministic: the
+/// same scene gives the same bytes.
 /// @param caption  text below the hand.
 /// @param width    width and height of the image, pixels.
 /// @throws EnvironmentError  if there is no off-screen rendering context.

@@ -184,9 +184,33 @@ class EvaluatePage(OutputCase):
         self.assertEqual(self.shown(), ["open 10"])
         self.assertEqual(self.browser.value("document.getElementById('filter-count').textContent"), " 1 of 4 grasps")
 
-    def test_without_scripts_the_page_is_a_table(self):
+    def displayed(self):
+        return self.browser.value("Array.from(document.querySelectorAll('#grasps tbody tr')).filter(row => "
+                                  "getComputedStyle(row).display !== 'none').length")
+
+    def test_large_tables_show_their_first_rows_until_asked_for_all(self):
+        self.open([grasp(f"g{i}", 0.0) for i in range(520)] + [grasp("hold")])
+        self.assertEqual(self.displayed(), 500)
+        self.assertEqual(self.browser.value("document.getElementById('filter-count').textContent"),
+                         " 521 of 521 grasps, first 500 shown")
+        self.click("verdict")
+        self.click("verdict")
+        self.assertEqual(self.shown()[:2], ["hold", "g0"])
+        self.set("filter-text", "hold", "input")
+        self.assertEqual(self.displayed(), 1)
+        self.set("filter-text", "", "input")
+        self.browser.value("document.getElementById('filter-all').click()")
+        self.assertEqual(self.displayed(), 521)
+        self.disable_scripts()
+        self.browser.open("file://" + self.path("p.html"))
+        self.assertEqual(self.displayed(), 521)
+
+    def disable_scripts(self):
         self.browser.command("Emulation.setScriptExecutionDisabled", value=True)
         self.addCleanup(self.browser.command, "Emulation.setScriptExecutionDisabled", value=False)
+
+    def test_without_scripts_the_page_is_a_table(self):
+        self.disable_scripts()
         self.open([grasp("hold"), grasp("open", 0.0)])
         self.assertEqual(self.shown(), ["open", "hold"])
         self.assertEqual(self.browser.value("document.querySelectorAll('input, select, button').length"), 0)
