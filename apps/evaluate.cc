@@ -77,7 +77,7 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.add_flag("--restart", options.fresh, "Discard the results of an earlier run");
   MarkRare(app, {"--shard"});
   AddQuiet(app, options.quiet);
-  AddExplain(app, {EvaluateReasons(), "evaluation of a hand grasp", "evaluate_grasps"});
+  AddExplain(app, {EvaluateReasons(), "evaluation of a hand grasp", "grasp_failure_reasons"});
   app.footer(
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --output reports.jsonl\n"
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol "

@@ -35,7 +35,7 @@ class GraspVerdicts:
     passed: np.ndarray
     """Whether each grasp passes all protocols (N,), bool."""
     reasons: list[str]
-    """Reason of the first protocol that fails, per grasp; empty if it passes (docs/evaluate_grasps.md)."""
+    """Reason of the first protocol that fails, per grasp; empty if it passes (docs/grasp_failure_reasons.md)."""
     protocols: tuple[str, ...]
     """Names of the P protocols."""
     protocol_reasons: np.ndarray
