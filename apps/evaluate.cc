@@ -8,6 +8,8 @@
 
 #include "apps/commands.h"
 #include "apps/evaluate_lines.h"
+#include "apps/evaluate_reasons.h"
+#include "apps/explain.h"
 #include "apps/help.h"
 #include "apps/list_option.h"
 #include "apps/options.h"
@@ -57,9 +59,16 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   AddNumber(app, "--mass", options.test.mass_kg, kMasses, "Mass of the object [default: 0.1]",
             "KG");
   BeginGroup(app, "Output");
-  app.add_option("-o,--output", options.output, "Reports in JSON Lines, one per grasp")
+  app.add_option("-o,--output", options.outputs,
+                 "Reports in JSON Lines, one per grasp. With the suffix .csv a table, with .html a "
+                 "page with a table that can be sorted and filtered. Repeat it for several files")
       ->type_name("FILE")
+      ->allow_extra_args(false)
       ->required();
+  app.add_option(
+         "--images", options.images,
+         "Folder of an image per grasp: hand, object and contacts. The page has links to them")
+      ->type_name("FOLDER");
   app.add_option("--shard", options.shard, "Part I of N of the grasps. `merge` joins the results")
       ->type_name("I/N");
   AddInteger(app, "-j,--jobs", options.jobs, 1, kMostProcesses,
@@ -68,11 +77,12 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.add_flag("--restart", options.fresh, "Discard the results of an earlier run");
   MarkRare(app, {"--shard"});
   AddQuiet(app, options.quiet);
+  AddExplain(app, {EvaluateReasons(), "evaluation of a hand grasp", "grasp_failure_reasons"});
   app.footer(
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --output reports.jsonl\n"
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol "
       "fall,disturbance -o "
-      "reports.jsonl\n");
+      "reports.jsonl -o reports.html\n");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <list>
 #include <map>
 #include <memory>
@@ -15,7 +14,8 @@
 #include <vector>
 
 #include "apps/batch/object_cache.h"
-#include "apps/evaluate_table.h"
+#include "apps/evaluate_files.h"
+#include "apps/evaluate_page.h"
 #include "apps/lines_run.h"
 #include "apps/output_files.h"
 #include "apps/program.h"
@@ -23,7 +23,10 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
+#include "planner/base/text_table.h"
+#include "planner/kinematics/hand_visuals.h"
 #include "planner/object/polyhedron.h"
+#include "render/frames/grasp_image.h"
 #include "sim/hand_grasps/grasp_conventions.h"
 
 namespace regrasp::apps {
@@ -32,6 +35,8 @@ namespace {
 
 constexpr double kMillimetres = 1000;
 constexpr std::size_t kMostWorlds = 8;
+/// Width and height of images, pixels.
+constexpr int kImageSize = 640;
 /// Number of decimals of lengths in millimetres, and of other measured values.
 constexpr int kDecimals = 3;
 
@@ -100,8 +105,8 @@ Json ResultJson(const sim::ProtocolResult& result) {
   return json;
 }
 
-Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
-                 const std::string& likely_cause) {
+Json VerdictJson(const sim::HandGrasp& grasp, const std::string& hand,
+                 const sim::GraspVerdict& verdict, const std::string& likely_cause) {
   const sim::GraspFault fault = verdict.fault();
   const bool passed = fault == sim::GraspFault::kNone;
   Json json = {{"format", "regrasp-hand-grasp-report"},
@@ -112,6 +117,7 @@ Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
   if (!likely_cause.empty()) json["likely_cause"] = likely_cause;
   if (!grasp.set.empty()) json["set"] = grasp.set;
   json["object"] = {{"file", grasp.object_file}, {"scale", grasp.scale}};
+  json["hand"] = hand;
   if (grasp.claimed) json["claimed"] = *grasp.claimed;
   if (grasp.score) json["score"] = *grasp.score;
   json["distance_mm"] = Rounded(kMillimetres * verdict.distance_m);
@@ -132,7 +138,10 @@ Json VerdictJson(const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
 class EvaluateLines {
  public:
   explicit EvaluateLines(const EvaluateOptions& options)
-      : options_(options), finder_(options.object), hand_(sim::ReadWholeHand(options.hand)) {}
+      : options_(options),
+        files_(SortEvaluateOutputs(options)),
+        finder_(options.object),
+        hand_(sim::ReadWholeHand(options.hand)) {}
 
   int Run() {
     CheckFiles();
@@ -141,7 +150,7 @@ class EvaluateLines {
     run.program = kEvaluateName;
     run.content = "reports";
     run.input = options_.grasps;
-    run.output = options_.output;
+    run.output = files_.reports;
     run.shard = options_.shard;
     run.digest = [this](const std::string& source) { return CommonDigest(source); };
     run.jobs = options_.jobs;
@@ -157,21 +166,25 @@ class EvaluateLines {
       return EntryDigest(common_ + PiecesDigest(object, line), line, object, finder_);
     };
     const int code = RunLinesFile(run);
-    if (code <= kExitBadInput && !options_.quiet) {
-      std::cout << FormatEvaluateTable(ReadEvaluateCounts(options_.output));
-    }
+    if (code <= kExitBadInput) WriteEvaluateFiles(files_, options_);
     return code;
   }
 
  private:
   void CheckFiles() const {
     OutputFiles outputs;
-    outputs.Add("--output", options_.output);
-    outputs.Add("--output", options_.output + kPartEnding);
+    for (const std::string& file :
+         {files_.reports, files_.reports + kPartEnding, files_.table, files_.page}) {
+      outputs.Add("--output", file);
+    }
+    if (!options_.images.empty()) {
+      outputs.folders.push_back({"--images", options_.images, IsGraspImageName});
+    }
     CheckOutputsDiffer(
         {{"--grasps", options_.grasps}, {"--hand", options_.hand}, {"--object", options_.object}},
         outputs);
     CheckOutputsWritable(outputs);
+    if (!options_.images.empty()) std::filesystem::create_directories(options_.images);
   }
 
   [[nodiscard]] std::string CommonDigest(const std::string& source) const {
@@ -183,6 +196,7 @@ class EvaluateLines {
     }
     digest.Add("mu", FormatDouble(options_.test.mu));
     digest.Add("mass", FormatDouble(options_.test.mass_kg));
+    if (!options_.images.empty()) digest.Add("images", options_.images);
     return digest.Finish();
   }
 
@@ -272,10 +286,32 @@ class EvaluateLines {
     if (verdict.distance_m > sim::GraspGeometry::kContactDistance) {
       cause = sim::LikelyConvention(grasp, *prepared.geometry, *prepared.world);
     }
-    return FormatRecord(line.entry, VerdictJson(grasp, verdict, cause));
+    if (!options_.images.empty()) DrawImage(line, grasp, verdict, object, *prepared.world);
+    return FormatRecord(line.entry, VerdictJson(grasp, hand_.name, verdict, cause));
+  }
+
+  /// Write the image of a grasp.
+  /// @throws EnvironmentError  if it cannot be drawn or written.
+  void DrawImage(const Line& line, const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
+                 const object::Object& object, sim::GraspWorld& world) const {
+    world.Place(grasp.grasp);
+    render::GraspScene scene;
+    scene.hand = kinematics::VisualsAt(*hand_.compiled, hand_.palm, world.joint_positions());
+    scene.palm = grasp.grasp.palm;
+    scene.scale = grasp.scale;
+    for (const sim::LinkTouch& touch : verdict.touches) {
+      for (const auto& contact : touch.contacts) scene.contacts.push_back(contact.point);
+    }
+    const sim::GraspFault fault = verdict.fault();
+    const std::string caption =
+        OneLine(grasp.id) +
+        (fault == sim::GraspFault::kNone ? ": pass" : ": " + std::string(GraspFaultName(fault)));
+    render::WritePng(std::filesystem::path(options_.images) / GraspImageName(line.entry),
+                     render::DrawGraspScene(scene, object, caption, kImageSize));
   }
 
   EvaluateOptions options_;
+  EvaluateFiles files_;
   ObjectFinder finder_;
   sim::WholeHand hand_;
   ObjectCache objects_;

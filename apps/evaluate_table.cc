@@ -5,49 +5,36 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/batch/line_records.h"
-#include "planner/base/json.h"
-#include "planner/base/text_table.h"
-#include "planner/plan/json_reader.h"
+#include "apps/evaluate_rows.h"
 
 namespace regrasp::apps {
 
 namespace {
 
-/// Return the index of a claim in Confusion.
-std::size_t ClaimOf(const Json& json) {
-  const auto claimed = json.find("claimed");
-  if (claimed == json.end() || !claimed->is_boolean()) return 2;
-  return claimed->get<bool>() ? 0 : 1;
-}
-
-void CountReport(const Line& line, EvaluateCounts& counts) {
-  const Json json = ParseJson(line.text, line.name);
-  const plan::JsonReader reader(json, line.name);
-  const std::size_t claim = ClaimOf(json);
-  const auto measured = [](const plan::JsonReader& verdict) -> std::size_t {
-    return verdict.Member("verdict").String() == "pass" ? 0 : 1;
-  };
-  ++counts.by_object[reader.Member("object").Member("file").String()]
-        .counts[claim][measured(reader)];
-  for (const plan::JsonReader& result : reader.Member("protocols").Elements()) {
-    ++counts.by_protocol[result.Member("protocol").String()].counts[claim][measured(result)];
+void CountReport(const GraspRow& row, EvaluateCounts& counts) {
+  const std::size_t claim = row.claimed ? (*row.claimed ? 0 : 1) : 2;
+  const auto measured = [](const std::string& verdict) { return verdict == "pass" ? 0 : 1; };
+  ++counts.by_object[row.object].counts[claim][measured(row.verdict)];
+  if (!row.hand.empty()) ++counts.by_hand[row.hand].counts[claim][measured(row.verdict)];
+  for (std::size_t i = 0; i < kProtocolNames.size(); ++i) {
+    const std::string& verdict = row.results[i].verdict;
+    if (verdict.empty()) continue;
+    ++counts.by_protocol[std::string(kProtocolNames[i])].counts[claim][measured(verdict)];
   }
-  if (reader.Has("reason")) ++counts.by_reason[reader.Member("reason").String()];
+  if (!row.reason.empty()) ++counts.by_reason[row.reason];
 }
 
 /// Names of the claims, in the order of Confusion.
 constexpr std::array kClaims = {"claimed success", "claimed failure", "no claim"};
 
-/// Format a confusion table: a row per name, and two columns per claim that a grasp makes.
-/// @returns an empty text if there are no rows.
-std::string ConfusionTable(const std::string& title,
-                           const std::map<std::string, EvaluateCounts::Confusion>& by) {
-  if (by.empty()) return "";
+/// Return a confusion table: a row per name, and two columns per claim that a grasp makes.
+/// @returns no rows if there are no names.
+std::vector<TextRow> ConfusionTable(const std::string& title,
+                                    const std::map<std::string, EvaluateCounts::Confusion>& by) {
+  if (by.empty()) return {};
   std::vector<TextRow> rows = {{title}};
   for (const auto& [name, confusion] : by) rows.push_back({name});
   for (std::size_t claim = 0; claim < kClaims.size(); ++claim) {
@@ -66,29 +53,36 @@ std::string ConfusionTable(const std::string& title,
       ++row;
     }
   }
-  return FormatRows(rows);
+  return rows;
 }
 
 }  // namespace
 
 EvaluateCounts ReadEvaluateCounts(const std::filesystem::path& path) {
   EvaluateCounts counts;
-  LinesInput input(path);
-  while (const std::optional<Line> line = input.Next()) {
-    const std::optional<Outcome> outcome = OutcomeOf(line->text, line->entry);
-    if (outcome == Outcome::kPass || outcome == Outcome::kFail) CountReport(*line, counts);
-  }
+  ReadGraspRows(path, [&](const GraspRow& row) {
+    if (row.verdict == "pass" || row.verdict == "fail") CountReport(row, counts);
+  });
   return counts;
 }
 
-std::string FormatEvaluateTable(const EvaluateCounts& counts) {
+std::vector<std::vector<TextRow>> EvaluateTables(const EvaluateCounts& counts) {
   std::vector<TextRow> reasons = {{"reason", "grasps"}};
   for (const auto& [reason, count] : counts.by_reason) {
     reasons.push_back({reason, std::to_string(count)});
   }
-  return (reasons.size() > 1 ? FormatRows(reasons) : "") +
-         ConfusionTable("protocol", counts.by_protocol) +
-         ConfusionTable("object", counts.by_object);
+  if (reasons.size() == 1) reasons.clear();
+  std::vector<std::vector<TextRow>> tables = {
+      reasons, ConfusionTable("protocol", counts.by_protocol),
+      ConfusionTable("object", counts.by_object), ConfusionTable("hand", counts.by_hand)};
+  std::erase_if(tables, [](const std::vector<TextRow>& table) { return table.empty(); });
+  return tables;
+}
+
+std::string FormatEvaluateTable(const EvaluateCounts& counts) {
+  std::string text;
+  for (const std::vector<TextRow>& table : EvaluateTables(counts)) text += FormatRows(table);
+  return text;
 }
 
 }  // namespace regrasp::apps

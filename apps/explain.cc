@@ -1,5 +1,7 @@
 #include "apps/explain.h"
 
+#include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include "apps/help.h"
@@ -38,14 +40,16 @@ std::string ListText(const std::string& heading, std::string_view items, int wid
   return text;
 }
 
-std::string EntryText(const FailureReason& reason, int width) {
+/// @param check  name of the check, printed after that of the reason.
+/// @param page   page of the documents that has the reason as an anchor, without ending.
+std::string EntryText(const FailureReason& reason, std::string_view check, const std::string& page,
+                      int width) {
   const std::string name(reason.name);
-  return name + " (" + std::string(plan::FailureCheckName(reason.check)) + ")\n\n" +
+  return name + " (" + std::string(check) + ")\n\n" +
          WrapText(PlainText(reason.meaning), 0, width) +
          ListText("Usual causes", reason.causes, width) +
-         ListText("Remedies", reason.remedies, width) + "\nDocumentation: docs/" +
-         (reason.check == plan::FailureCheck::kCause ? "likely_causes" : "failure_reasons") +
-         ".md#" + name + "\n";
+         ListText("Remedies", reason.remedies, width) + "\nDocumentation: docs/" + page + ".md#" +
+         name + "\n";
 }
 
 /// Return all entries as Markdown, with headings for reasons and likely causes.
@@ -62,35 +66,69 @@ std::string AllText() {
   return text;
 }
 
-}  // namespace
+/// @throws InputError  always; the message lists all reasons.
+[[noreturn]] void FailUnknown(std::span<const FailureReason> reasons, std::string_view name) {
+  std::string list = kExplainAll;
+  for (const FailureReason& reason : reasons) list += ", " + std::string(reason.name);
+  throw InputError("--explain: failure reason not found, expected one of " + list + ", found \"" +
+                   std::string(name) + "\"");
+}
 
-void AddExplain(CLI::App& app) {
-  const auto explain = [](const std::string& name) {
-    std::string text = ExplainText(name, HelpWidth());
+/// Add the option. @param text_of  function that returns the text of a reason.
+void AddExplainOption(CLI::App& app, const std::string& help,
+                      const std::function<std::string(const std::string& name)>& text_of) {
+  const auto explain = [text_of](const std::string& name) {
+    std::string text = text_of(name);
     text.pop_back();
     // RunProgram prints the text of CLI::Success and a newline, as for --version.
     throw CLI::Success(text, CLI::ExitCodes::Success);
   };
   BeginGroup(app, "Failure reasons");
-  app.add_option_function<std::string>(
-         "--explain", explain,
-         "Print meaning, causes and remedies of a failure reason, and exit. Example: slipped; all "
-         "prints all reasons as Markdown")
+  app.add_option_function<std::string>("--explain", explain, help)
       ->type_name("REASON")
       ->trigger_on_parse();
+}
+
+/// Return the help of --explain. @param example  name of a reason.
+std::string ExplainHelp(std::string_view example) {
+  return "Print meaning, causes and remedies of a failure reason, and exit. Example: " +
+         std::string(example) + "; all prints all reasons as Markdown";
+}
+
+}  // namespace
+
+void AddExplain(CLI::App& app) {
+  AddExplainOption(app, ExplainHelp("slipped"),
+                   [](const std::string& name) { return ExplainText(name, HelpWidth()); });
+}
+
+void AddExplain(CLI::App& app, const ReasonReference& reference) {
+  AddExplainOption(
+      app, ExplainHelp(reference.reasons.front().name),
+      [reference](const std::string& name) { return ExplainText(reference, name, HelpWidth()); });
 }
 
 std::string ExplainText(std::string_view name, int width) {
   if (name == kExplainAll) return AllText();
   if (const FailureReason* reason = plan::FindFailureReason(name)) {
-    return EntryText(*reason, width);
+    const bool is_cause = reason->check == plan::FailureCheck::kCause;
+    return EntryText(*reason, plan::FailureCheckName(reason->check),
+                     is_cause ? "likely_causes" : "failure_reasons", width);
   }
-  std::string list = kExplainAll;
-  for (const FailureReason& reason : plan::FailureReasons()) {
-    list += ", " + std::string(reason.name);
+  FailUnknown(plan::FailureReasons(), name);
+}
+
+std::string ExplainText(const ReasonReference& reference, std::string_view name, int width) {
+  if (name == kExplainAll) {
+    std::string text = "## Reasons\n";
+    for (const FailureReason& reason : reference.reasons) {
+      text += "\n" + plan::FailureReasonMarkdown(reason);
+    }
+    return text;
   }
-  throw InputError("--explain: failure reason not found, expected one of " + list + ", found \"" +
-                   std::string(name) + "\"");
+  const auto found = std::ranges::find(reference.reasons, name, &FailureReason::name);
+  if (found == reference.reasons.end()) FailUnknown(reference.reasons, name);
+  return EntryText(*found, reference.check, reference.page, width);
 }
 
 }  // namespace regrasp::apps

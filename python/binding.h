@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <optional>
@@ -28,6 +29,7 @@ struct PythonObject {
 /// Hand held by Python.
 struct PythonHand {
   kinematics::HandFile file;
+  std::filesystem::path path;  ///< path from which it was read
 };
 
 /// Check that a plan was made for an object. @param name  name of the plan in messages.
@@ -39,6 +41,7 @@ void CheckFits(const plan::Plan& plan, const PythonObject& object, const std::st
 void BindObjects(pybind11::module_& module);
 void BindGrasps(pybind11::module_& module);
 void BindHands(pybind11::module_& module);
+void BindHandGrasps(pybind11::module_& module);
 void BindPlans(pybind11::module_& module);
 void BindReports(pybind11::module_& module);
 void BindFigures(pybind11::module_& module);

@@ -93,6 +93,7 @@ void BindHands(py::module_& module) {
       .def_property_readonly("sha256", [](const PythonHand& of) { return of.file.hand.sha256; })
       .def_property_readonly("name", [](const PythonHand& of) { return of.file.hand.name; })
       .def_property_readonly("file", [](const PythonHand& of) { return of.file.hand.file; })
+      .def_property_readonly("path", [](const PythonHand& of) { return of.path; })
       .def_property_readonly("fingers",
                              [](const PythonHand& of) {
                                std::vector<std::string> names;
@@ -109,7 +110,7 @@ void BindHands(py::module_& module) {
       .def_property_readonly("joint_names", JointNames)
       .def("tips", TipsOf);
   module.def("read_hand", [](const std::filesystem::path& path) {
-    return PythonHand{kinematics::ReadHandFile(path)};
+    return PythonHand{kinematics::ReadHandFile(path), path};
   });
   module.def("nearest", NearestOf);
 }

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_regrasp, module) {
   python::BindObjects(module);
   python::BindGrasps(module);
   python::BindHands(module);
+  python::BindHandGrasps(module);
   python::BindPlans(module);
   python::BindReports(module);
   python::BindFigures(module);

@@ -7,6 +7,7 @@ set(regrasp_slow_tests
   apps.corpus
   apps.endurance
   apps.evaluate
+  apps.evaluate_output
   apps.failing_frames
   apps.frames
   apps.gait

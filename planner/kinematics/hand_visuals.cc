@@ -136,14 +136,14 @@ bool IsBelow(const mjModel& model, int above, int body) {
   return body == above;
 }
 
-}  // namespace
-
-std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::string& palm_name,
-                                  const HandModel& hand) {
+/// Return the visual shapes of a hand in a configuration.
+/// @param posed  poses of the model. The links of the fingers of `hand` are in the frame of their
+///     last joint, which requires the reference configuration.
+std::vector<LinkVisual> VisualsIn(const mjData& posed, const CompiledModel& compiled,
+                                  const std::string& palm_name, const HandModel& hand) {
   const mjModel* model = compiled.model.get();
-  const DataPtr rest = AtRest(*model);
   const int palm = mj_name2id(model, mjOBJ_BODY, palm_name.c_str());
-  const Isometry3d from_world = PoseAt(rest->xpos, rest->xmat, palm).inverse();
+  const Isometry3d from_world = PoseAt(posed.xpos, posed.xmat, palm).inverse();
   // Joint positions in the reference configuration by finger, and the joint that moves each body.
   std::map<int, std::pair<FingerIndex, int>> carried;
   std::vector<std::vector<Vector3d>> anchors;
@@ -182,13 +182,32 @@ std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::stri
     link.color = color;
     link.finger = place.first;
     link.after = place.second;
-    Isometry3d pose = from_world * PoseAt(rest->geom_xpos, rest->geom_xmat, geom);
+    Isometry3d pose = from_world * PoseAt(posed.geom_xpos, posed.geom_xmat, geom);
     if (place.second > 0) pose.translation() -= anchors[place.first][place.second - 1];
     AddGeom(*model, geom, pose, link);
   }
   std::vector<LinkVisual> visuals;
   for (auto& [place, link] : links) visuals.push_back(std::move(link));
   return visuals;
+}
+
+}  // namespace
+
+std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled, const std::string& palm,
+                                  const HandModel& hand) {
+  return VisualsIn(*AtRest(*compiled.model), compiled, palm, hand);
+}
+
+std::vector<LinkVisual> VisualsAt(const CompiledModel& compiled, const std::string& palm,
+                                  const std::map<std::string, double>& joints) {
+  const mjModel& model = *compiled.model;
+  const DataPtr posed = AtRest(model);
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const auto found = joints.find(JointName(model, joint));
+    if (found != joints.end()) posed->qpos[model.jnt_qposadr[joint]] = found->second;
+  }
+  mj_kinematics(&model, posed.get());
+  return VisualsIn(*posed, compiled, palm, {});
 }
 
 std::vector<LinkVisual> VisualsOf(const HandFile& file) {

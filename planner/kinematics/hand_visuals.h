@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,14 @@ struct LinkVisual {
 /// @param palm  HandDescription::palm.
 [[nodiscard]] std::vector<LinkVisual> VisualsOf(const CompiledModel& compiled,
                                                 const std::string& palm, const HandModel& hand);
+
+/// Return the visual shapes of the palm and of all links in a configuration, in the palm's frame.
+/// They do not move: each has after = 0. Therefore the hand needs no fingers.
+/// @param palm    HandDescription::palm.
+/// @param joints  positions by joint name, radians or metres. Other joints are at their reference.
+[[nodiscard]] std::vector<LinkVisual> VisualsAt(const CompiledModel& compiled,
+                                                const std::string& palm,
+                                                const std::map<std::string, double>& joints);
 
 /// Return the visual shapes of a hand that was read from a file.
 [[nodiscard]] std::vector<LinkVisual> VisualsOf(const HandFile& file);

@@ -2,7 +2,7 @@
 
 A hand holds an object with its fingertips and changes its grasp without letting go. `plan` finds
 the sequence of steps, `validate` checks it and replays it in a physics engine, and `force_closure`
-evaluates one grasp or a million.
+evaluates one grasp or a million. `validate_grasps` tests grasps by a whole hand, with all links.
 
 Lengths are in the object's unit; `Object.scale` is its size in metres. Angles are in degrees, and
 their names end in `_deg`. Errors are exceptions with the one-line text that the programs print.
@@ -23,6 +23,7 @@ True
 from ._regrasp import InputError
 from ._regrasp import version as __version__
 from .grasps import ForceClosure, force_closure
+from .hand_grasps import GraspVerdicts, validate_grasps
 from .hands import Hand
 from .objects import Object
 from .plans import NoPlan, Plan, plan, plan_in_hand
@@ -32,6 +33,7 @@ InputError.__module__ = __name__
 
 __all__ = [
     "ForceClosure",
+    "GraspVerdicts",
     "Hand",
     "InputError",
     "NoPlan",
@@ -42,4 +44,5 @@ __all__ = [
     "plan",
     "plan_in_hand",
     "validate",
+    "validate_grasps",
 ]

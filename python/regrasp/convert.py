@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from dataclasses import replace
 
@@ -18,7 +19,7 @@ from .hands import Hand
 from .objects import Object
 
 _EPILOG = """Input, by file ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
-(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), plans of HiDex (.csv), plans of regrasp for a hand (.json),
+(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), grasps of MultiGripperGrasp (.json), plans of HiDex (.csv), plans of regrasp for a hand (.json),
 trajectories of validate (.npz, to .mcap). Output: hand grasps for evaluate
 (.jsonl), isaac_grasp 1.0 (.yaml), contacts for validate --grasps (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
@@ -118,10 +119,30 @@ def _check_object_pose(path: str, options) -> None:
                          "DexGraspBench, Dexonomy or BODex")
 
 
+def _is_multigrippergrasp(path: str) -> bool:
+    """Return whether a JSON file is one of MultiGripperGrasp, and not a plan."""
+    with open(path, "rb") as file:
+        start = file.read(1 << 20)
+    return b'"regrasp-plan"' not in start and b'"gripper"' in start
+
+
+def _with_names_of(hand: Hand, grasps: formats.HandGrasps) -> formats.HandGrasps:
+    """Return the grasps with the joint names of the hand, if they differ only in punctuation.
+
+    Isaac Sim replaces characters: joint_0.0 of a URDF is joint_0_0 there.
+    """
+    own = {re.sub(r"\W", "_", name): name for name in hand.joint_names}
+    if len(own) < len(hand.joint_names) or set(grasps.joint_names) <= set(hand.joint_names):
+        return grasps
+    return replace(grasps, joint_names=[own.get(name, name) for name in grasps.joint_names])
+
+
 def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     ending = _ending(path)
     if ending not in (".npy", ".npz"):
         _check_object_pose(path, options)
+    if ending == ".json" and _is_multigrippergrasp(path):
+        return formats.read_multigrippergrasp(path)
     if ending == ".json":
         return formats.of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
     if ending in (".npy", ".npz"):
@@ -318,9 +339,10 @@ def _grasp_files(inputs: list[str]) -> list[tuple[str, str]]:
             files.append((path, ""))
             continue
         below = sorted(os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names
-                       if _ending(name) in (".npy", ".npz", ".yaml", ".yml", ".xml"))
+                       if _ending(name) in (".npy", ".npz", ".yaml", ".yml", ".xml") or
+                       _ending(name) == ".json" and _is_multigrippergrasp(os.path.join(folder, name)))
         if not below:
-            raise InputError(f"{path}: no grasps found, expected .npy, .npz, .yaml or .xml files")
+            raise InputError(f"{path}: no grasps found, expected .npy, .npz, .yaml, .xml or .json files")
         for file in below:
             folder = os.path.dirname(os.path.relpath(file, path))
             files.append((file, folder.replace(os.sep, "/") + "/" if folder else ""))
@@ -337,6 +359,8 @@ def _write_hand_grasps(options) -> list[str]:
             lost.update(not_written(grasps))
             if not grasps.joint_names and hand is not None:
                 grasps = replace(_fitting(path, grasps, hand), joint_names=hand.joint_names)
+            elif hand is not None:
+                grasps = _with_names_of(hand, grasps)
             yield prefix, grasps
 
     scale = None if options.scale is None else _arguments.number("--scale", options.scale, 0)

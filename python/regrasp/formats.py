@@ -9,6 +9,7 @@ from ._hand_grasps import HandConfigurations, HandGrasps, of_plan
 from ._hand_motion import HandMotion, motion_of_plan, read_trajectory
 from ._hidex import read_hidex
 from ._isaac_grasp import read_isaac_grasp, write_isaac_grasp
+from ._multigrippergrasp import read_multigrippergrasp
 from ._ros2 import write_mcap
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "read_graspit",
     "read_hidex",
     "read_isaac_grasp",
+    "read_multigrippergrasp",
     "read_trajectory",
     "write_hand_grasps",
     "write_isaac_grasp",

@@ -45,11 +45,13 @@ std::string Policy(PictureSource pictures, const std::vector<std::string>& scrip
 }  // namespace
 
 std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
-                           PictureSource pictures, std::span<const std::string_view> scripts) {
+                           PictureSource pictures, std::span<const std::string_view> scripts,
+                           std::string_view more_style) {
   std::vector<std::string> texts;
   for (const std::string_view script : scripts) texts.push_back(ScriptText(script));
   Element style("style");
   style.AddVerbatim(kPageStyle);
+  style.AddVerbatim(more_style);
   const std::vector<Element> head = {
       Element("meta", {{"charset", "utf-8"}}),
       Element("meta",

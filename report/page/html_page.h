@@ -29,9 +29,11 @@ enum class PictureSource {
 /// requests. The page is also well-formed XML.
 /// @param parts    elements of the page, from top to bottom.
 /// @param scripts  scripts that run after the page was read; never text from input.
+/// @param style    style sheet after that of report pages; never text from input.
 [[nodiscard]] std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& parts,
                                          PictureSource pictures = PictureSource::kInPage,
-                                         std::span<const std::string_view> scripts = {});
+                                         std::span<const std::string_view> scripts = {},
+                                         std::string_view style = {});
 
 /// Return the head of a page: its kind in small letters, its subject, and the verdict with a
 /// summary.

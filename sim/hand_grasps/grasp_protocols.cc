@@ -34,6 +34,10 @@ constexpr double kUntouchedSeconds = 0.1;
 /// newtons, and largest ratio of the bounds.
 constexpr int kDisturbanceSteps = 125;
 constexpr double kDisturbanceMotion = 0.01;
+/// Time steps between checks whether a force is certainly resisted, and factor on the motion that
+/// remains at the present speed.
+constexpr int kSettleSteps = 15;
+constexpr double kSettleFactor = 5;
 constexpr double kLeastForce = 0.05;
 constexpr double kMostForce = 50;
 constexpr double kForceRatio = 1.1;
@@ -58,7 +62,8 @@ class GraspTester {
     world.Place(grasp.grasp);
     verdict_.touches = geometry.Measure(world);
     verdict_.distance_m = SmallestDistance(verdict_.touches);
-    target_ = world.WithinRange(grasp.target ? *grasp.target : DerivedTarget());
+    // A target of the data set may exceed joint ranges, because it is a command.
+    target_ = grasp.target ? *grasp.target : world.WithinRange(DerivedTarget());
   }
 
   void Run(GraspProtocol protocol) {
@@ -167,13 +172,11 @@ class GraspTester {
   }
 
   void Bench(ProtocolResult& result) {
-    double distance = verdict_.distance_m;
-    if (grasp_.pregrasp) {
-      closed_.reset();
-      world_.Place(*grasp_.pregrasp);
-      distance = SmallestDistance(geometry_.Measure(world_));
-    }
-    if (distance < -kBenchDepth) {
+    closed_.reset();
+    world_.Place(grasp_.pregrasp ? *grasp_.pregrasp : grasp_.grasp);
+    const double distance =
+        grasp_.pregrasp ? SmallestDistance(geometry_.Measure(world_)) : verdict_.distance_m;
+    if (std::min(distance, world_.SelfDistance()) < -kBenchDepth) {
       result.fault = GraspFault::kPenetrates;
       return;
     }
@@ -229,14 +232,34 @@ class GraspTester {
     }
   }
 
+  /// Motion of the object in the hand since it has closed.
+  struct HeldMotion {
+    double moved = 0;  ///< translation of the centroid, metres
+    double rotated_deg = 0;
+  };
+
+  [[nodiscard]] HeldMotion MotionInHand() const {
+    const Isometry3d pose = world_.palm_pose().inverse() * world_.object_pose();
+    const Vector3d& centroid = world_.centroid();
+    return {(pose * centroid - closed_object_ * centroid).norm(), AngleDeg(closed_object_, pose)};
+  }
+
+  /// Return whether the hand holds the object against a force. The simulation ends early if the
+  /// object would remain within the limits at a multiple of its present speed.
   bool IsResisted(int direction, double force) {
     Load(force * LoadDirection(direction));
-    const Vector3d centroid = closed_object_ * world_.centroid();
-    for (int step = 0; step < kDisturbanceSteps; ++step) {
+    HeldMotion last;
+    for (int step = 1; step <= kDisturbanceSteps; ++step) {
       world_.Step();
-      const Isometry3d pose = world_.palm_pose().inverse() * world_.object_pose();
-      if ((pose * world_.centroid() - centroid).norm() > kDisturbanceMotion) return false;
-      if (AngleDeg(closed_object_, pose) > kBenchAngleDeg) return false;
+      const HeldMotion now = MotionInHand();
+      if (now.moved > kDisturbanceMotion || now.rotated_deg > kBenchAngleDeg) return false;
+      if (step % kSettleSteps != 0) continue;
+      const double left = kSettleFactor * (kDisturbanceSteps - step) / kSettleSteps;
+      if (now.moved + left * std::abs(now.moved - last.moved) < kDisturbanceMotion &&
+          now.rotated_deg + left * std::abs(now.rotated_deg - last.rotated_deg) < kBenchAngleDeg) {
+        break;
+      }
+      last = now;
     }
     return world_.IsTouched();
   }

@@ -367,6 +367,14 @@ Isometry3d GraspWorld::palm_pose() const {
   return kinematics::PoseAt(data_->xpos, data_->xmat, palm_);
 }
 
+std::map<std::string, double> GraspWorld::joint_positions() const {
+  std::map<std::string, double> positions;
+  for (const auto& [name, joint] : joint_ids_) {
+    positions[name] = data_->qpos[model_->jnt_qposadr[joint]];
+  }
+  return positions;
+}
+
 bool GraspWorld::IsTouched() const {
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];
@@ -375,6 +383,17 @@ bool GraspWorld::IsTouched() const {
     if (contact.exclude == 0 && (first == object_body_) != (second == object_body_)) return true;
   }
   return false;
+}
+
+double GraspWorld::SelfDistance() const {
+  double smallest = 0;
+  for (int i = 0; i < data_->ncon; ++i) {
+    const mjContact& contact = data_->contact[i];
+    const bool is_of_hand = model_->geom_bodyid[contact.geom1] != object_body_ &&
+                            model_->geom_bodyid[contact.geom2] != object_body_;
+    if (contact.exclude == 0 && is_of_hand) smallest = std::min(smallest, contact.dist);
+  }
+  return smallest;
 }
 
 std::map<std::string, double> GraspWorld::JointMotion(int link, const Vector3d& point,

@@ -83,10 +83,15 @@ class GraspWorld {
   [[nodiscard]] Eigen::Isometry3d object_pose() const;
   /// Return the pose of the palm in the same frame.
   [[nodiscard]] Eigen::Isometry3d palm_pose() const;
+  /// Return the positions of all joints of the hand by name, radians or metres.
+  [[nodiscard]] std::map<std::string, double> joint_positions() const;
   /// Return the object's centroid in the frame of its file, metres.
   [[nodiscard]] const Eigen::Vector3d& centroid() const { return centroid_; }
   /// Return whether the hand touches the object in the last step.
   [[nodiscard]] bool IsTouched() const;
+  /// Return the smallest signed distance between colliding links of the hand, metres; 0 without
+  /// contacts between links.
+  [[nodiscard]] double SelfDistance() const;
   /// Return the bodies of the hand that have collision geometry.
   [[nodiscard]] const std::vector<int>& links() const { return links_; }
   /// Return Jᵀd for a point of a link: per joint, the velocity of the point along the direction d

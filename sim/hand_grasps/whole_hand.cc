@@ -70,6 +70,91 @@ kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compile
   return text;
 }
 
+/// Return the joints that the model itself constrains to other joints.
+std::set<std::string> ConstrainedJoints(const kinematics::CompiledModel& compiled) {
+  const mjModel& model = *compiled.model;
+  std::set<std::string> joints;
+  for (const kinematics::Mimic& mimic : compiled.text.mimics) joints.insert(mimic.joint);
+  for (int i = 0; i < model.neq; ++i) {
+    if (model.eq_type[i] != mjEQ_JOINT || model.eq_active[i] == 0) continue;
+    for (const int joint : {model.eq_obj1id[i], model.eq_obj2id[i]}) {
+      if (joint >= 0) joints.insert(kinematics::JointName(model, joint));
+    }
+  }
+  return joints;
+}
+
+/// Return whether an actuator moves the sum of two joints by a fixed tendon.
+bool ShareActuator(const mjModel& model, int joint, int other) {
+  for (int a = 0; a < model.nu; ++a) {
+    if (model.actuator_trntype[a] != mjTRN_TENDON) continue;
+    const int tendon = model.actuator_trnid[2 * a];
+    const int* wraps = model.wrap_objid + model.tendon_adr[tendon];
+    const auto moves = [&](int id) {
+      return std::find(wraps, wraps + model.tendon_num[tendon], id) !=
+             wraps + model.tendon_num[tendon];
+    };
+    if (model.wrap_type[model.tendon_adr[tendon]] == mjWRAP_JOINT && moves(joint) && moves(other)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Return a joint that an actuator can move. @throws InputError  if the model does not have it.
+int FindJoint(const plan::JsonReader& json, const mjModel& model) {
+  const std::string name = json.String();
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const int type = model.jnt_type[joint];
+    if ((type == mjJNT_HINGE || type == mjJNT_SLIDE) &&
+        kinematics::JointName(model, joint) == name) {
+      return joint;
+    }
+  }
+  json.Fail("joint \"" + name + "\" not found in the model");
+}
+
+/// Remove the actuators of a joint. They would act against the coupling of the joint.
+void RemoveActuators(const std::string& joint, XmlElement& root) {
+  for (XmlElement& section : root.children) {
+    if (section.name != "actuator") continue;
+    std::erase_if(section.children, [&](const XmlElement& actuator) {
+      const std::string* moved = actuator.Find("joint");
+      if (moved == nullptr) moved = actuator.Find("jointinparent");
+      return moved != nullptr && *moved == joint;
+    });
+  }
+}
+
+/// Impose the couplings of the hand file that the model does not impose. Joints of a fixed tendon
+/// with an actuator are not coupled: only their sum is imposed, as in the model.
+void ImposeCouplings(const plan::JsonReader& json, const kinematics::CompiledModel& compiled,
+                     XmlElement& root) {
+  if (!json.Has("couplings")) return;
+  const mjModel& model = *compiled.model;
+  const std::set<std::string> constrained = ConstrainedJoints(compiled);
+  std::vector<XmlElement> couplings;
+  for (const plan::JsonReader& coupling : json.Member("couplings").Elements()) {
+    const int joint = FindJoint(coupling.Member("joint"), model);
+    const int leader = FindJoint(coupling.Member("follows"), model);
+    if (joint == leader) coupling.Member("follows").Fail("must differ from joint");
+    const std::string name = kinematics::JointName(model, joint);
+    const double ratio = coupling.Member("ratio").Number();
+    const double offset = coupling.Has("offset") ? coupling.Member("offset").Number() : 0;
+    if (constrained.contains(name) || ShareActuator(model, joint, leader)) continue;
+    // MuJoCo relates positions relative to the reference configuration.
+    const double constant = offset + ratio * model.qpos0[model.jnt_qposadr[leader]] -
+                            model.qpos0[model.jnt_qposadr[joint]];
+    couplings.push_back(kinematics::MakeElement(
+        "joint", {{"joint1", name},
+                  {"joint2", kinematics::JointName(model, leader)},
+                  {"polycoef", FormatDouble(constant) + " " + FormatDouble(ratio) + " 0 0 0"}}));
+    RemoveActuators(name, root);
+  }
+  if (couplings.empty()) return;
+  root.children.push_back(kinematics::MakeElement("equality", {}, std::move(couplings)));
+}
+
 bool IsFreeJoint(const XmlElement& element) {
   const std::string* type = element.Find("type");
   return element.name == "freejoint" ||
@@ -173,6 +258,7 @@ WholeHand ReadWholeHand(const std::filesystem::path& path) {
   hand.text = hand.compiled->text;
   if (hand.text.root.name == "robot") hand.text = UrdfWithActuators(*hand.compiled);
   FixMasses(model, hand.text.root);
+  ImposeCouplings(json, *hand.compiled, hand.text.root);
   WrapHand(hand.palm, hand.text.root);
   return hand;
 }

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -54,6 +55,14 @@ class Evaluate(ProgramCase):
         self.assertAlmostEqual(reports["open"]["distance_mm"], 25)
         self.assertEqual(reports["deep"]["reason"], "penetrates")
         self.assertAlmostEqual(reports["deep"]["distance_mm"], -5, delta=0.06)
+
+    def test_every_reason_is_explained(self):
+        with open(os.path.join(program_case.ARGUMENTS.source, "sim/hand_grasps/grasp_protocols.cc"), encoding="utf-8") as file:
+            names = re.search(r"kNames = \{\s*\"none\",(.*?)\}", file.read(), re.DOTALL).group(1)
+        names = re.findall(r'"([a-z-]+)"', names)
+        self.assertIn("dropped", names)
+        text = self.assert_done("--explain", "all").stdout
+        self.assertEqual(re.findall(r"^### `(.*)`$", text, re.MULTILINE), names)
 
     def test_low_friction_drops_the_object(self):
         """Negative control: the same grasp without friction fails each test."""

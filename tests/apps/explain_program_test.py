@@ -1,4 +1,4 @@
-"""validate --explain REASON: the reference of failure reasons, on the terminal and as a page."""
+"""validate --explain REASON and evaluate --explain REASON: the reference of failure reasons, on the terminal and as a page."""
 
 import json
 import os
@@ -73,6 +73,17 @@ class Explain(ProgramCase):
             self.assertTrue(text.endswith(made), f"{page} is out of date: run scripts/command-pages")
             # Negative control: an entry of another program version is found.
             self.assertFalse(text.replace("friction", "traction").endswith(made))
+
+    def test_reasons_of_evaluate_are_explained_by_evaluate(self):
+        said = self.assert_done("--explain", "dropped", program="evaluate").stdout
+        self.assertTrue(said.startswith("dropped (evaluation of a hand grasp)\n\nNo link touches the object"), said)
+        self.assertTrue(said.endswith("\nDocumentation: docs/grasp_failure_reasons.md#dropped\n"), said)
+        self.assert_refused(2, ["--explain: failure reason not found, expected one of all, joints-out-of-range, ",
+                                ', found "slipped"'], "--explain", "slipped", program="evaluate")
+        made = self.assert_done("--explain", "all", program="evaluate").stdout
+        text = self.source("grasp_failure_reasons.md")
+        self.assertTrue(text.endswith("\n" + made), "grasp_failure_reasons.md is out of date: run scripts/command-pages")
+        self.assertFalse(text.replace("friction", "traction").endswith(made))
 
 
 if __name__ == "__main__":

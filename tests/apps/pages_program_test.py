@@ -80,7 +80,7 @@ LEFT = {
     **COMMANDS,
     "analytic_check": ["out/plan/report.json"],
     "diagnose_a_failure": ["out/cube.start/report.html"],
-    "evaluate_grasps": ["reports.jsonl"],
+    "evaluate_grasps": ["reports.jsonl", "reports.html"],
     "export_hand_plan": ["turn.npz", "scene/scene.xml"],
     "conditions": ["out/turn/report.html"],
     "hand_engines": ["out/turn/report.html"],

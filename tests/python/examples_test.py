@@ -6,9 +6,9 @@ import os
 import unittest
 
 import regrasp
-from regrasp import formats, grasps, hands, objects, plans, reports
+from regrasp import formats, grasps, hand_grasps, hands, objects, plans, reports
 
-MODULES = [regrasp, formats, grasps, hands, objects, plans, reports]
+MODULES = [regrasp, formats, grasps, hand_grasps, hands, objects, plans, reports]
 
 
 class ExamplesTest(unittest.TestCase):

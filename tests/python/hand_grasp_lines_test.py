@@ -5,13 +5,14 @@ import os
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import jsonschema
 import numpy as np
 
 import regrasp
 from isaac_text import ISAAC
-from regrasp import _poses, formats
+from regrasp import _multigrippergrasp, _poses, convert, formats
 from regrasp_case import RegraspCase
 
 PROGRAM = os.path.join(os.path.dirname(os.path.dirname(regrasp.__file__)), "regrasp-convert")
@@ -117,6 +118,78 @@ class HandGraspLinesTest(RegraspCase):
         self.assertEqual((first["id"], first["score"], second["joints"], first["object"]),
                          ("first", 0.5, {"a": 4, "b": 5}, {"file": "mug.obj", "scale": 0.01}))
         self.assertNotIn("claimed", first)
+
+    def multigrippergrasp(self, **more):
+        pose = [[0.01, 0.02, 0.3, 0.6, 0, 0.8, 0], [0, 0, 0.1, 1, 0, 0, 0]]
+        return {"gripper": "franka_panda", "object_id": "Mug", "pose": pose, "dofs": [[0.02, 0.03], [0.04, 0.04]],
+                "result": [1, 0], **more}
+
+    def save_json(self, name, content):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            json.dump(content, file)
+
+    def test_multigrippergrasp(self):
+        self.save_json("panda-Mug.json", self.multigrippergrasp(final_dofs=[[0, 0], [0, 0]]))
+        said = self.convert("panda-Mug.json", "--output", "out.jsonl")
+        self.assertEqual(said, "regrasp-convert: note: not converted: final_dofs\n")
+        first, second = self.lines()
+        self.assertEqual((first["id"], first["set"], first["object"], first["claimed"], second["claimed"]),
+                         ("panda-Mug_0", "multigrippergrasp", {"file": "Mug.obj", "scale": 1.0}, True, False))
+        self.assertEqual(first["joints"], {"panda_finger_joint1": 0.02, "panda_finger_joint2": 0.03})
+        self.assert_pose(first["palm"], PALM)
+        # Files of the older version have the time until the object fell.
+        older = self.multigrippergrasp(fall_time=[3, 2.9], test_duration=3)
+        del older["result"]
+        self.save_json("older.json", older)
+        self.convert("older.json", "--output", "older.jsonl")
+        self.assertEqual([entry["claimed"] for entry in self.lines("older.jsonl")], [True, False])
+
+    def test_the_joint_order_of_isaac_sim_is_known(self):
+        self.save_json("a.json", self.multigrippergrasp(gripper="Allegro", dofs=np.arange(32.).reshape(2, 16).tolist()))
+        self.convert("a.json", "--output", "out.jsonl")
+        joints = self.lines()[0]["joints"]
+        self.assertEqual((joints["joint_0_0"], joints["joint_12_0"], joints["joint_1_0"], joints["joint_11_0"]), (0, 1, 4, 15))
+        self.assertEqual(len(joints), 16)
+        for names in _multigrippergrasp.JOINT_NAMES.values():
+            self.assertEqual(len(set(names)), len(names))
+        # The joints of another gripper have no names.
+        self.save_json("b.json", self.multigrippergrasp(gripper="mine"))
+        self.assertIn("--hand is required", self.convert("b.json", "--output", "x.jsonl", code=2))
+
+    def test_names_with_other_punctuation_are_those_of_the_hand(self):
+        self.save_json("a.json", self.multigrippergrasp(gripper="Allegro", dofs=np.arange(32.).reshape(2, 16).tolist()))
+        grasps = formats.read_multigrippergrasp(self.path("a.json"))
+        hand = unittest.mock.Mock(joint_names=[f"joint_{i}.0" for i in range(16)])
+        self.assertEqual(convert._with_names_of(hand, grasps).joint_names[:3], ["joint_0.0", "joint_12.0", "joint_4.0"])
+        hand.joint_names = ["other"]
+        self.assertEqual(convert._with_names_of(hand, grasps).joint_names, grasps.joint_names)
+        hand.joint_names = ["joint_0.0", "joint_0 0"]  # ambiguous
+        self.assertEqual(convert._with_names_of(hand, grasps).joint_names, grasps.joint_names)
+
+    def test_hostile_files_of_multigrippergrasp_are_one_line(self):
+        for more, words in (({"pose": [[0, 0, 0, 1, 0, 0]] * 2}, "pose must have shape (N, 7)"),
+                            ({"pose": [[0, 0, 0, 0, 0, 0, 0]] * 2}, "pose"),
+                            ({"pose": [[float("nan")] * 7] * 2}, "must be finite"),
+                            ({"pose": [[0, 0, 0, 1, 0, 0, 0]]}, "dofs must have 1 rows"),
+                            ({"dofs": [[0.1]] * 2}, "dofs must have 2 joints for 'franka_panda', found 1"),
+                            ({"dofs": [[0.1, 0.2], [0.1]]}, "dofs"),
+                            ({"result": [1]}, "result must have 2 numbers"),
+                            ({"result": "yes"}, "result"), ({"gripper": 3}, "gripper")):
+            self.save_json("a.json", self.multigrippergrasp(**more))
+            said = self.convert("a.json", "--output", "x.jsonl", code=2)
+            self.assertIn(words, said)
+            self.assertEqual(said.count("\n"), 1, said)
+        for text in ('{"gripper": ', '["gripper"]', '{"gripper": ' + "[" * 100000):
+            with open(self.path("a.json"), "w", encoding="utf-8") as file:
+                file.write(text)
+            self.assertEqual(self.convert("a.json", "--output", "x.jsonl", code=2).count("\n"), 1, text[:20])
+
+    def test_other_json_files_in_a_folder_are_not_read(self):
+        self.save_json("set/Mug.json", self.multigrippergrasp())
+        self.save_json("set/info.json", {"mass": 1})
+        self.convert("set", "--output", "out.jsonl")
+        self.assertEqual([entry["id"] for entry in self.lines()], ["Mug_0", "Mug_1"])
 
     def test_a_folder_has_a_name_per_grasp(self):
         for name in ("set/cup/0.npy", "set/cup/1.npy", "set/can/0.npy"):

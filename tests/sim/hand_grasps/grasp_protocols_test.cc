@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -67,15 +68,23 @@ HandGrasp GraspAt(double position) {
   return grasp;
 }
 
+/// Return a text with a part replaced. The part must be in it.
+std::string Replaced(std::string text, const std::string& part, const std::string& by) {
+  const std::size_t at = text.find(part);
+  EXPECT_NE(at, std::string::npos) << part;
+  return text.replace(at, part.size(), by);
+}
+
 class GraspProtocolsTest : public testing::Test {
  protected:
-  static WholeHand ReadGripper() {
+  static WholeHand ReadGripper(const std::string& model = kGripper,
+                               const std::string& description = kHand) {
     const std::filesystem::path folder =
         std::filesystem::path(testing::TempDir()) /
         testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "gripper.xml") << kGripper;
-    std::ofstream(folder / "gripper.json") << kHand;
+    std::ofstream(folder / "gripper.xml") << model;
+    std::ofstream(folder / "gripper.json") << description;
     return ReadWholeHand(folder / "gripper.json");
   }
   GraspVerdict Test(const HandGrasp& grasp, const GraspTest& test = {}) {
@@ -99,6 +108,105 @@ TEST_F(GraspProtocolsTest, JointsOfAConstraintFollow) {
       EXPECT_NEAR(contact.outward.x(), contact.point.x() / kHalf, 1e-9);
     }
   }
+}
+
+constexpr char kConstraint[] =
+    R"(<equality><joint joint1="right" joint2="left" polycoef="0 1 0 0 0"/></equality>)";
+constexpr char kActuators[] = R"(<position joint="left"/>)";
+constexpr char kBothActuators[] = R"(<position joint="left"/><position joint="right"/>)";
+
+std::string WithCoupling(const std::string& coupling) {
+  return Replaced(kHand, "}", R"(, "couplings": [)" + coupling + "]}");
+}
+
+TEST_F(GraspProtocolsTest, CouplingsOfTheHandFileAreImposed) {
+  // The model neither couples the fingers nor, in the first case, moves the right one.
+  const std::string uncoupled = Replaced(kGripper, kConstraint, "");
+  const std::string coupling =
+      WithCoupling(R"({"joint": "right", "follows": "left", "ratio": 1, "offset": 0.001})");
+  for (const std::string& model : {uncoupled, Replaced(uncoupled, kActuators, kBothActuators)}) {
+    GraspWorld world(ReadGripper(model, coupling), box_, 1);
+    EXPECT_EQ(world.model().nu, 1);
+    world.CheckJoints({.joints = {{"left", 0.01}}}, "grasp");
+    world.Place({.joints = {{"left", 0.01}}});
+    const mjModel& compiled = world.model();
+    const int right = mj_name2id(&compiled, mjOBJ_JOINT, "right");
+    EXPECT_NEAR(world.data().qpos[compiled.jnt_qposadr[right]], 0.011, 1e-12);
+    const HandConfiguration from{.joints = {{"left", 0.01}}}, to{.joints = {{"left", 0.015}}};
+    world.Command(from, to, 1);
+    for (int step = 0; step < 200; ++step) world.Step();
+    EXPECT_NEAR(world.data().qpos[compiled.jnt_qposadr[right]], 0.016, 5e-4);
+  }
+  // Without the coupling the right finger stays.
+  GraspWorld world(ReadGripper(uncoupled), box_, 1);
+  EXPECT_THROW(world.CheckJoints({.joints = {{"left", 0.01}}}, "grasp"), InputError);
+}
+
+TEST_F(GraspProtocolsTest, CouplingsOfTheModelHavePriority) {
+  const std::string opposite =
+      WithCoupling(R"({"joint": "right", "follows": "left", "ratio": -1})");
+  GraspWorld world(ReadGripper(kGripper, opposite), box_, 1);
+  world.Place({.joints = {{"left", 0.01}}});
+  const mjModel& compiled = world.model();
+  const int right = mj_name2id(&compiled, mjOBJ_JOINT, "right");
+  EXPECT_NEAR(world.data().qpos[compiled.jnt_qposadr[right]], 0.01, 1e-12);
+}
+
+TEST_F(GraspProtocolsTest, JointsOfATendonRemainUncoupled) {
+  const std::string tendon = Replaced(
+      kGripper, kConstraint,
+      R"(<tendon><fixed name="sum"><joint joint="left" coef="1"/><joint joint="right" coef="1"/></fixed></tendon>)");
+  const std::string model = Replaced(tendon, kActuators, R"(<position tendon="sum"/>)");
+  const WholeHand hand =
+      ReadGripper(model, WithCoupling(R"({"joint": "right", "follows": "left", "ratio": 1})"));
+  GraspWorld world(hand, box_, 1);
+  EXPECT_EQ(world.model().nu, 1);
+  EXPECT_THROW(world.CheckJoints({.joints = {{"left", 0.01}}}, "grasp"), InputError);
+}
+
+TEST_F(GraspProtocolsTest, CouplingsOfUnknownJointsAreBadInput) {
+  try {
+    static_cast<void>(ReadGripper(
+        kGripper, WithCoupling(R"({"joint": "right", "follows": "thumb", "ratio": 1})")));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("/couplings/0/follows: joint \"thumb\" not found in the model"));
+  }
+}
+
+TEST_F(GraspProtocolsTest, TargetsOutsideTheRangesAreCommanded) {
+  const std::string soft =
+      Replaced(kGripper, R"(kp="500" ctrlrange="0 0.05" forcerange="-10 10")", R"(kp="100")");
+  GraspWorld world(ReadGripper(soft), box_, 1);
+  const auto resisted = [&](double target) {
+    HandGrasp grasp = GraspAt(kTouch);
+    grasp.target = grasp.grasp;
+    grasp.target->joints["left"] = target;
+    const GraspVerdict verdict =
+        TestHandGrasp(grasp, box_, GraspGeometry(world, box_, 1), {GraspProtocol::kDisturbance},
+                      {.mass_kg = 0.001}, world);
+    return *std::ranges::min_element(verdict.results[0].resisted_N);
+  };
+  // The upper limit of the joint is 0.05.
+  EXPECT_GT(resisted(0.15), 2 * resisted(0.05));
+}
+
+TEST_F(GraspProtocolsTest, LinksThatPenetrateEachOtherFailTheBench) {
+  // The fingers meet in front of the object: at 0.04 they overlap by 4 mm, at 0.046 by 16 mm.
+  const std::string box = R"(type="box" size="0.005 0.01 0.01")";
+  const std::string ball = R"(type="sphere" size="0.012")";
+  const std::string thick = Replaced(Replaced(kGripper, box, ball), box, ball);
+  GraspWorld world(ReadGripper(thick), box_, 1);
+  const auto fault = [&](double position) {
+    HandGrasp grasp = GraspAt(position);
+    grasp.grasp.palm.translation().z() = -0.2;
+    return TestHandGrasp(grasp, box_, GraspGeometry(world, box_, 1),
+                         {GraspProtocol::kDexGraspBench}, {}, world)
+        .fault();
+  };
+  EXPECT_EQ(fault(0.04), GraspFault::kNoContact);
+  EXPECT_EQ(fault(0.046), GraspFault::kPenetrates);
 }
 
 TEST_F(GraspProtocolsTest, DistancesAreSigned) {
