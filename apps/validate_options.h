@@ -79,10 +79,8 @@ struct ValidateOptions {
   std::string require;                             ///< standard[=SHARE]; empty: not given
   std::optional<double> required_conditions;  ///< required share of the conditions; set by Finish
   render::FrameOptions frame;
-  int animation_width =
-      0;  ///< width in pixels; Finish sets --size animation, or half of the frames' width
-  int animation_height = 0;
-  bool animation_crop = false;
+  int animation_width = 1280;  ///< width and height of animations, pixels
+  int animation_height = 720;
   std::string video;
   int workers;  ///< number of threads that draw frames
   int sheet_width = render::kOverviewWidth;
