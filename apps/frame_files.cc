@@ -60,7 +60,7 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
 
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
                                    const report::DrawingOptions& options,
-                                   const std::vector<plan::Snapshot>& samples,
+                                   const std::vector<report::HandSample>& samples,
                                    const std::vector<MovingFile>& files,
                                    const report::Report& report) {
   std::vector<render::AnimationFormat> formats;

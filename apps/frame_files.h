@@ -48,13 +48,13 @@ struct MovingFile {
 /// Write the replay as animations, with the view of the frames.
 /// The last pause shows the frame of the failed step, if a step failed.
 /// @param options  drawing options with the size of the animations.
-/// @param samples  states during the replay, ascending in time.
+/// @param samples  recorded states of the hand, ascending in time; may be empty.
 /// @param files    files to write, at least one.
 /// @returns the first animation.
 /// @throws EnvironmentError  as WriteFrames.
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
                                    const report::DrawingOptions& options,
-                                   const std::vector<plan::Snapshot>& samples,
+                                   const std::vector<report::HandSample>& samples,
                                    const std::vector<MovingFile>& files,
                                    const report::Report& report);
 

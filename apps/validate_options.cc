@@ -171,11 +171,14 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
                                                       {"all", ViewerPages::kAll},
                                                       {"none", ViewerPages::kNone}}))
       .Word("animation", [&options] { options.animate = true; })
-      .AddTo(app, "all|failed|none[,viewer=frames|all|none][,animation]",
+      .Key("object", ChoiceParser<bool>(options.frame.glass, {{"opaque", false}, {"glass", true}}))
+      .AddTo(app, "all|failed|none[,viewer=frames|all|none][,object=opaque|glass][,animation]",
              "Which plans and grasps get frames [default: all; none for a file of plans]\n"
              "animation: also write the replay as replay.webp, which the HTML report shows\n"
              "viewer=frames|all|none: HTML reports with the interactive 3-D replay, those with "
-             "frames by default");
+             "frames by default\n"
+             "object=opaque|glass: look of a solid. Fingers behind an opaque one shine through "
+             "faintly [default: opaque]");
   ListOption("--show")
       .Word("focus", [&options] { options.frame.show_focus = true; })
       .Word("clusters", [&options] { options.show_clusters = true; })
@@ -197,7 +200,7 @@ void AddPictures(CLI::App& app, ValidateOptions& options) {
              "Size of frames, pixels. By default frames are cropped to their content [default: " +
                  std::to_string(options.frame.width) + "x" + std::to_string(options.frame.height) +
                  "]\n"
-                 "animation=WxH: size of animations [default: half of the frames]\n"
+                 "animation=WxH: size of animations [default: 1280x720]\n"
                  "overview=W: width of overview.png [default: 1600]");
   AddFrameView(app, options.frame);
   AddVideo(app, options.video);
@@ -308,11 +311,6 @@ void ValidateOptions::Finish(const CLI::App& app) {
   CheckPlans(app);
   CheckSimulation(*this, app);
   if (!animates()) Refuse(app, {kAnimationSize}, "requires --frames animation or --video");
-  animation_crop = frame.crop && animation_width == 0;
-  if (animation_width == 0) {
-    animation_width = std::max(render::kMinFrameSide, frame.width / 2);
-    animation_height = std::max(render::kMinFrameSide, frame.height / 2);
-  }
   given = GivenOptions(app, ChangeNothing());
 }
 

@@ -78,10 +78,8 @@ struct ValidateOptions {
   std::vector<sim::HandCondition> condition_list;  ///< conditions; set by Finish
   std::optional<double> required_conditions;       ///< required share of the conditions
   render::FrameOptions frame;
-  int animation_width =
-      0;  ///< width in pixels; Finish sets --size animation, or half of the frames' width
-  int animation_height = 0;
-  bool animation_crop = false;
+  int animation_width = 1280;  ///< width and height of animations, pixels
+  int animation_height = 720;
   std::string video;
   int workers;  ///< number of threads that draw frames
   int sheet_width = render::kOverviewWidth;

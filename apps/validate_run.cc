@@ -51,7 +51,6 @@ struct ReplayRecord {
   Stopwatch step;  ///< time since the last step was done
   std::vector<double> step_seconds;
   std::vector<plan::Snapshot> trajectory;  ///< trajectory of a replay by ideal fingers
-  std::vector<plan::Snapshot> animation;   ///< animation samples of a replay by ideal fingers
   sim::HandTrajectory hand_trajectory;     ///< trajectory of a replay by a hand
   report::HandRecorder viewer;             ///< states of a replay by a hand for the 3-D replay
   std::vector<sim::SceneKey> rests;        ///< keyframes of a replay by a hand
@@ -66,20 +65,15 @@ sim::ReplayObserver Recorder(const ValidateOptions& options, const plan::Plan& p
     record.viewer.EndEntry();
   };
   const bool trajectory = !options.trajectory.empty();
-  const bool animate = options.animates();
-  // The duration of a replay depends on the object, so an animation requires all states to select
-  // from.
-  observer.sample_interval_s = animate ? 0 : kSampleInterval_s;
-  if (trajectory || animate) {
-    observer.on_sample = [trajectory, animate, &record](const plan::Snapshot& snapshot) {
-      std::vector<plan::Snapshot>& rows = record.trajectory;
-      const bool due = rows.empty() || snapshot.time_s >= rows.back().time_s + kSampleInterval_s;
-      if (trajectory && due) rows.push_back(snapshot);
-      if (animate) record.animation.push_back(snapshot);
+  observer.sample_interval_s = kSampleInterval_s;
+  if (trajectory) {
+    observer.on_sample = [&record](const plan::Snapshot& snapshot) {
+      record.trajectory.push_back(snapshot);
     };
   }
   // Whether the plan passes is not known yet.
-  const bool viewer = options.video_is_page() || options.has_viewer(/*passed=*/false);
+  const bool viewer =
+      options.animates() || options.video_is_page() || options.has_viewer(/*passed=*/false);
   if (trajectory || viewer) {
     observer.on_time_step = [trajectory, viewer, &record](const sim::HandWorld& world) {
       if (trajectory) record.hand_trajectory.Add(world);
@@ -168,7 +162,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
                             report::Report& report) {
   frame.width = options.animation_width;
   frame.height = options.animation_height;
-  frame.crop = options.animation_crop;
+  frame.crop = false;
   std::vector<MovingFile> files;
   if (options.animate) files.push_back({folder / kAnimationName, render::AnimationFormat::kWebp});
   if (!options.video.empty() && !options.video_is_page()) {
@@ -178,7 +172,17 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   return WriteAnimation(
       *task.object->object, task.plan,
       {.frame = frame, .hand = hand, .workers = options.workers, .on_picture = count.reporter()},
-      record.animation, files, report);
+      record.viewer.samples(), files, report);
+}
+
+/// Return the names of the hand's fingers; none without a hand.
+std::vector<std::string> FingerNames(const ValidateTask& task) {
+  std::vector<std::string> names;
+  if (!task.shared.hand) return names;
+  for (const kinematics::Finger& finger : task.shared.hand->hand.fingers) {
+    names.push_back(finger.name);
+  }
+  return names;
 }
 
 void WritePictures(const ValidateOptions& options, const render::FrameOptions& frame,
@@ -210,8 +214,8 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
     WriteFile(options.video, report::FormatViewerHtml(report, task.plan, replay));
   }
   if (!options.has_viewer(report.passed())) replay.clear();
-  WriteFile(folder / kPageName,
-            report::FormatReportHtml(report, task.plan, pictures, moving, replay));
+  WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving,
+                                                         replay, FingerNames(task)));
 }
 
 /// Check that no file of the run was removed.

@@ -55,7 +55,7 @@ void DrawFrames(benchmark::State& state, const Case& made, const char* label) {
   render::FrameRenderer renderer = RendererOf(made);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        render::EncodePng(renderer.Render(made.snapshots.back(), "step 1/1 · switch")));
+        render::EncodePng(renderer.Render(made.snapshots.back(), {"step 1/1 · switch"})));
   }
   state.SetLabel(label);
 }
@@ -102,7 +102,7 @@ void BM_Setup(benchmark::State& state) {
 void BM_EncodePng(benchmark::State& state) {
   const Case& made = GetCase(state.range(0));
   render::FrameRenderer renderer = RendererOf(made);
-  const render::Image image = renderer.Render(made.snapshots.back(), "step 1/1 · switch");
+  const render::Image image = renderer.Render(made.snapshots.back(), {"step 1/1 · switch"});
   for (auto _ : state) benchmark::DoNotOptimize(render::EncodePng(image));
   state.SetLabel(kModels.at(state.range(0)));
 }

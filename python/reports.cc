@@ -116,8 +116,10 @@ std::string FormatPage(const PythonReport& of, const PythonObject& object, bool 
   const std::string viewer = render::FormatViewerScene(report::MakeViewerScene(
       *object.file.object, of.plan, {.frame = {}, .hand = hand ? &*hand : nullptr}, of.samples,
       of.report));
-  return only_replay ? report::FormatViewerHtml(of.report, of.plan, viewer)
-                     : report::FormatReportHtml(of.report, of.plan, {}, {}, viewer);
+  return only_replay
+             ? report::FormatViewerHtml(of.report, of.plan, viewer)
+             : report::FormatReportHtml(of.report, of.plan, {}, {}, viewer,
+                                        hand ? hand->FingerNames() : std::vector<std::string>());
 }
 
 /// Return the frames and the overview image.

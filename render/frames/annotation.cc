@@ -29,8 +29,11 @@ constexpr double kLongestBar = 0.20;  ///< maximum length of the scale bar per i
 constexpr double kMargin = 1.33;
 constexpr double kLineHeight = 1.25;
 constexpr double kNumberSize = 1.2;
+constexpr double kProgressSize = 1.25;
 constexpr double kOrdinalSize = 0.85;
 constexpr double kLabelRadius = 0.66;
+/// Radius of a label per width of its text.
+constexpr double kWideLabel = 0.45;
 constexpr double kHalo = 0.32;
 constexpr double kLeaderWidth = 0.08;
 constexpr double kRingGap = 0.36;
@@ -82,7 +85,9 @@ class Writer {
   /// @returns the covered areas.
   [[nodiscard]] std::vector<Obstacle> DrawCaption(const std::string& caption) const;
   [[nodiscard]] std::vector<Obstacle> DrawScaleBar(double metres_per_unit) const;
-  void DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered) const;
+  [[nodiscard]] std::vector<Obstacle> DrawProgress(const std::string& progress) const;
+  void DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const std::string> names,
+                   std::span<const Obstacle> covered) const;
 
  private:
   void DrawCentred(const std::string& text, const Vector2d& centre, Color color) const {
@@ -132,7 +137,14 @@ std::vector<std::string> OrdinalsOf(std::span<const FingerGlyph> fingers) {
   return ordinals;
 }
 
-void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
+/// Return the text next to a finger: its name unless that is long, or its number.
+std::string LabelOf(FingerIndex finger, std::span<const std::string> names) {
+  constexpr std::size_t kLongest = 10;
+  const std::string label = FingerLabel(finger, names);
+  return label.size() <= kLongest ? label : std::to_string(finger);
+}
+
+void Writer::DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const std::string> names,
                          std::span<const Obstacle> covered) const {
   const double font = std::max(font_, kSmallestFont);
   std::vector<LabelAnchor> anchors;
@@ -142,7 +154,7 @@ void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
     const Vector2d anchor = camera_.Project(glyph.end);
     anchors.push_back(
         {anchor, anchor - camera_.Project(glyph.contact), camera_.Project(glyph.fingertip)});
-    texts.push_back(std::to_string(glyph.finger));
+    texts.push_back(LabelOf(glyph.finger, names));
     colors.push_back(NumberColor(glyph.color, ground_));
   }
   const std::vector<std::string> ordinals = OrdinalsOf(fingers);
@@ -155,9 +167,13 @@ void Writer::DrawNumbers(std::span<const FingerGlyph> fingers,
   }
   std::vector<Obstacle> obstacles = ObstaclesOf(camera_, fingers);
   obstacles.insert(obstacles.end(), covered.begin(), covered.end());
-  const std::vector<Vector2d> centres =
-      PlaceLabels(anchors, obstacles, kLabelRadius * font, camera_.width, camera_.height);
   SelectFont(cr_, kNumberSize * font, /*bold=*/true);
+  double radius = kLabelRadius * font;
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    radius = std::max(radius, kWideLabel * TextWidth(cr_, texts[i]));
+  }
+  const std::vector<Vector2d> centres =
+      PlaceLabels(anchors, obstacles, radius, camera_.width, camera_.height);
   for (std::size_t i = 0; i < fingers.size(); ++i) DrawLeader(fingers[i], centres[i], font);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (i == fingers.size()) SelectFont(cr_, kOrdinalSize * font, /*bold=*/true);
@@ -212,6 +228,18 @@ std::vector<Obstacle> Writer::DrawCaption(const std::string& caption) const {
   return covered;
 }
 
+std::vector<Obstacle> Writer::DrawProgress(const std::string& progress) const {
+  if (progress.empty() || font_ < kSmallestFont) return {};
+  const double size = kProgressSize * font_;
+  SelectFont(cr_, size, /*bold=*/true);
+  const double width = TextWidth(cr_, progress);
+  const double margin = kMargin * font_;
+  const Vector2d centre(camera_.width - margin - width / 2, margin + size / 2);
+  DrawCentred(progress, centre, ground_.rotation);
+  const Vector2d half(width / 2, 0);
+  return {{centre - half, centre + half, size / 2, kTextWeight}};
+}
+
 std::vector<Obstacle> Writer::DrawScaleBar(double metres_per_unit) const {
   if (font_ < kSmallestFont) return {};
   const double pixels_per_metre = camera_.PixelsPerUnit(Eigen::Vector3d::Zero()) / metres_per_unit;
@@ -258,6 +286,12 @@ std::vector<Obstacle> DrawCaption(const CairoImage& image, const Camera& camera,
   return covered;
 }
 
+std::vector<Obstacle> DrawProgress(const CairoImage& image, const Camera& camera,
+                                   const std::string& progress, const TextStyle& style) {
+  cairo_set_line_join(image.context(), CAIRO_LINE_JOIN_ROUND);
+  return Writer(image.context(), camera, style).DrawProgress(progress);
+}
+
 std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGlyph> fingers) {
   std::vector<Obstacle> obstacles;
   for (const FingerGlyph& glyph : fingers) {
@@ -282,10 +316,10 @@ std::vector<Obstacle> ObstaclesOf(const Camera& camera, std::span<const FingerGl
 }
 
 void DrawNumbers(const CairoImage& image, const Camera& camera,
-                 std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered,
-                 const TextStyle& style) {
+                 std::span<const FingerGlyph> fingers, std::span<const std::string> names,
+                 std::span<const Obstacle> covered, const TextStyle& style) {
   cairo_set_line_join(image.context(), CAIRO_LINE_JOIN_ROUND);
-  Writer(image.context(), camera, style).DrawNumbers(fingers, covered);
+  Writer(image.context(), camera, style).DrawNumbers(fingers, names, covered);
 }
 
 namespace {
@@ -332,7 +366,8 @@ std::vector<AlignInset> PlaceInsets(const Camera& camera, std::span<const Finger
     const double length = LengthOf(glyph.path);
     if (!FirstLeg(glyph) || !(length < 2 * glyph.fingertip_radius)) continue;
     const double pixels = length * camera.PixelsPerUnit(glyph.contact);
-    const double magnification = std::min(kTravel * style.font / pixels, kMostMagnified);
+    const double magnification = kTravel * style.font / pixels;
+    if (magnification > kMostMagnified) continue;
     const Vector2d fingertip = camera.Project(glyph.fingertip);
     AlignInset& inset = insets.emplace_back();
     inset.glyph = glyph;

@@ -40,18 +40,25 @@ void DrawRings(const CairoImage& image, const Camera& camera, std::span<const Fi
                                                 const std::string& caption, double metres_per_unit,
                                                 const TextStyle& style);
 
+/// Draw the motion of the object up to now at the top right, in bold.
+/// @returns the covered area.
+[[nodiscard]] std::vector<Obstacle> DrawProgress(const CairoImage& image, const Camera& camera,
+                                                 const std::string& progress,
+                                                 const TextStyle& style);
+
 /// Return the areas of fingers that labels should not cover.
 [[nodiscard]] std::vector<Obstacle> ObstaclesOf(const Camera& camera,
                                                 std::span<const FingerGlyph> fingers);
 
-/// Draw the number of each finger in its colour, on top of everything drawn before.
+/// Draw the name or number of each finger in its colour, on top of everything drawn before.
 ///
 /// If sliding fingers do not start together, their order ("1st" and so on) is written next to their
 /// start positions.
+/// @param names    names of fingers by index; other fingers have their number.
 /// @param covered  areas that numbers should not cover, in addition to fingers.
 void DrawNumbers(const CairoImage& image, const Camera& camera,
-                 std::span<const FingerGlyph> fingers, std::span<const Obstacle> covered,
-                 const TextStyle& style);
+                 std::span<const FingerGlyph> fingers, std::span<const std::string> names,
+                 std::span<const Obstacle> covered, const TextStyle& style);
 
 /// A round magnified part of a frame that shows the path of a finger that its fingertip sphere
 /// hides.
@@ -68,7 +75,8 @@ struct AlignInset {
 
 /// Place an inset for each finger whose sliding step is shorter than the diameter of its fingertip.
 ///
-/// Insets have the positions that cover least. Images too small for text have no insets.
+/// A step that would be invisible even in its inset has none. Insets have the positions that cover
+/// least. Images too small for text have no insets.
 /// @param covered  areas that insets should not cover, in addition to fingers.
 [[nodiscard]] std::vector<AlignInset> PlaceInsets(const Camera& camera,
                                                   std::span<const FingerGlyph> fingers,

@@ -137,6 +137,18 @@ std::vector<std::pair<int, int>> RemoveStrayCreases(
   return kept;
 }
 
+/// Return whether a surface is curved nearly everywhere, like a scan. Its few sharp edges are
+/// accidents of the triangulation and would look like scratches. A CAD model has many edges within
+/// its planar faces, or bends sharply at most of its edges.
+/// @param creases, folds, edges  numbers of sharp edges, of edges at which the surface bends, and
+/// of
+///                               all edges.
+bool IsCurvedEverywhere(std::size_t creases, std::size_t folds, std::size_t edges) {
+  constexpr double kLeastBendShare = 0.9, kLeastCreaseShare = 0.25;
+  return static_cast<double>(folds) > kLeastBendShare * static_cast<double>(edges) &&
+         static_cast<double>(creases) < kLeastCreaseShare * static_cast<double>(folds);
+}
+
 void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
               const BodyOptions& options, BodyShape& shape) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> triangles_of_edge;
@@ -152,13 +164,16 @@ void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
     return std::array<Vector3d, 2>{mesh.vertices[edge.first], mesh.vertices[edge.second]};
   };
   std::vector<std::pair<int, int>> creases;
+  std::size_t inner = 0;  // edges between two triangles
   for (const auto& [edge, triangles] : triangles_of_edge) {
+    if (triangles.size() == 2) ++inner;
     const double angle = AngleAt(triangles, normals);
     if (angle > least) creases.push_back(edge);
     if (angle > object::kCoplanarAngle && triangles.size() == 2) {
       shape.folds.push_back({ends(edge), {normals[triangles[0]], normals[triangles[1]]}});
     }
   }
+  if (!all && IsCurvedEverywhere(creases.size(), shape.folds.size(), inner)) return;
   for (const auto& edge : all ? creases : RemoveStrayCreases(mesh, creases)) {
     shape.edges.push_back(ends(edge));
   }

@@ -13,7 +13,7 @@ namespace regrasp::render {
 /// Selection of the edges of an object's triangles that are drawn.
 enum class EdgeStyle {
   kCrease,  ///< edges at which the surface bends by more than the crease angle, except isolated
-            ///< short ones
+            ///< short ones; none of a scan, which bends at nearly every edge and rarely sharply
   kAll,     ///< all edges between triangles that are not coplanar
   kNone,
 };

@@ -57,14 +57,22 @@ struct Window {
   double strength;  ///< share of the full effect, 0 to 1
 };
 
-/// Translucent shapes in front of and behind the layers, each with its own opacity.
+/// Translucent shapes in front of and behind the layers or the solid, each with its own opacity.
 ///
 /// At each pixel only the nearest shape is visible. It is blended below the layers if one of
-/// `covers` is in front of it, otherwise over them.
+/// `covers` is in front of it, otherwise over them. A solid hides it, but its rims shine through
+/// (Solid).
 struct Veil {
   std::vector<Shape> shapes;
-  std::vector<MeshInstance> covers;
-  std::vector<Window> windows;  ///< areas in which the veil is more transparent
+  std::vector<Shape> rims = {};  ///< shells of which only the rim is not hidden by `shapes`
+  std::vector<MeshInstance> covers = {};  ///< only with layers
+  std::vector<Window> windows = {};       ///< areas in which the veil is more transparent
+};
+
+/// An opaque object, through which hidden shapes shine faintly as in an X-ray image.
+struct Solid {
+  std::vector<Shape> shapes;  ///< its surface and lines; translucent shapes are behind it
+  double xray = 0;            ///< opacity of `Drawing::shapes` behind it
 };
 
 /// The content of an image.
@@ -80,6 +88,8 @@ struct Drawing {
   std::vector<MeshInstance> hiding;
   /// If set, each layer is blended only at its visible pixels.
   std::optional<Veil> veil = std::nullopt;
+  /// If set, it replaces the layers, the outline and `hiding`.
+  std::optional<Solid> solid = std::nullopt;
 };
 
 /// An off-screen OpenGL canvas with one soft light from above and left of the camera, without

@@ -17,6 +17,7 @@ constexpr double kStemLength = 0.125;  // from the contact to the end of the ste
 constexpr double kForceRadius = 0.0055;
 constexpr double kLongestForce = 0.20;
 constexpr double kShortestForce = 0.055;
+constexpr double kMostForce = 0.25;  // of a force that is larger than the largest
 constexpr double kMotionGap = 0.030;
 constexpr double kMotionLength = 0.085;
 constexpr double kArrowSpace = kMotionGap + kMotionLength;
@@ -26,14 +27,10 @@ constexpr double kTrackDash = 0.030;
 /// Distance of a track's end from the fingertip that hides it, in fingertip radii.
 constexpr double kBeforeFingertip = 1.7;
 
-/// Shares of the free space in front of a contact that sphere, stem and gap can use. Less than
-/// half, so that the finger on the opposite side has space too.
+/// Shares of the free space in front of a contact that sphere and stem can use. Less than half, so
+/// that the finger on the opposite side has space too.
 constexpr double kFingertipShare = 0.15;
 constexpr double kStemShare = 0.45;
-constexpr double kGapShare = 0.2;
-
-/// Distance below which a finger is drawn at its contact.
-constexpr double kTouching = 1e-3;
 
 /// Distance within which a ray ignores the surface at its origin.
 constexpr double kRaySkip = 1e-4;
@@ -97,12 +94,6 @@ void AddTrack(const FingerGlyph& glyph, Color color, const GlyphMeshes& meshes,
   shapes.push_back({MeshInstance{meshes.arrow_head, PoseAlong(tip, -leg.normalized())}, color});
 }
 
-/// Return the distance of the fingertip from the surface, metres.
-double GapOf(const plan::FingerState& state, double fingertip_radius_m) {
-  const double away = (state.contact_W - state.tip_W).dot(state.normal_W.normalized());
-  return std::max(0.0, away - fingertip_radius_m);
-}
-
 bool IsInMotion(plan::FingerRole role) {
   return role == plan::FingerRole::kPlaced || role == plan::FingerRole::kReleased;
 }
@@ -121,7 +112,8 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
   const Eigen::Isometry3d to_body = frame.BodyPose(snapshot.X_WO).inverse();
   std::vector<FingerGlyph> glyphs;
   for (const plan::FingerState& state : snapshot.fingers) {
-    if (state.role == plan::FingerRole::kFree) continue;
+    const bool is_free = state.role == plan::FingerRole::kFree;
+    if (is_free && (!options.free_fingers || state.normal_W.isZero())) continue;
     FingerGlyph glyph;
     glyph.finger = state.finger;
     glyph.role = state.role;
@@ -138,17 +130,9 @@ std::vector<FingerGlyph> MakeFingerGlyphs(const plan::Snapshot& snapshot,
         options.finger_radius.value_or(kStemRadius * glyph.fingertip_radius / kFingertipRadius);
     const double stem =
         std::max(2 * glyph.fingertip_radius, std::min(kStemLength, kStemShare * clearance));
-    const double gap = options.gaps == GapView::kNone
-                           ? 0
-                           : GapOf(state, snapshot.fingertip_radius_m) / frame.diameter_m;
-    const double away = std::min({kGapScale * gap, kGapShare * clearance, kArrowSpace});
-    const Vector3d tip = glyph.contact + away * glyph.outward;
-    glyph.fingertip = tip + glyph.outward * glyph.fingertip_radius;
-    glyph.stem_end = tip + glyph.outward * stem;
-    // A finger drawn away from its contact is visibly in motion and occupies the place of its
-    // arrow.
-    const bool has_arrow =
-        IsInMotion(state.role) && clearance > kStemLength + kArrowSpace && away < kTouching;
+    glyph.fingertip = glyph.contact + glyph.outward * glyph.fingertip_radius;
+    glyph.stem_end = glyph.contact + glyph.outward * stem;
+    const bool has_arrow = IsInMotion(state.role) && clearance > kStemLength + kArrowSpace;
     glyph.end = glyph.stem_end + (has_arrow ? kArrowSpace : 0) * glyph.outward;
     glyphs.push_back(glyph);
   }
@@ -160,7 +144,9 @@ std::optional<Vector3d> ForceTip(const FingerGlyph& glyph, double largest_force)
   if (glyph.role == plan::FingerRole::kReleased || !(size > 0 && largest_force > 0)) {
     return std::nullopt;
   }
-  const double length = std::max(kShortestForce, kLongestForce * size / largest_force);
+  // Forces during a motion can exceed those of the static grasps.
+  const double length =
+      std::clamp(kLongestForce * size / largest_force, kShortestForce, kMostForce);
   return glyph.contact + glyph.force / size * length;
 }
 
@@ -185,7 +171,7 @@ void AddFingerShapes(const FingerGlyph& glyph, double largest_force, const Glyph
     AddArrow(ghost ? near : glyph.end, ghost ? glyph.end : near, kMotionRadius, color, meshes,
              shapes);
   }
-  if (ghost) return;
+  if (ghost || glyph.role == plan::FingerRole::kFree) return;
   const Eigen::Isometry3d cone = PoseAlong(glyph.contact, -glyph.outward);
   shapes.push_back({MeshInstance{meshes.friction_cone, cone}, color, kConeOpacity});
   if (const auto tip = ForceTip(glyph, largest_force)) {

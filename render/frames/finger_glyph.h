@@ -42,22 +42,14 @@ struct FingerGlyph {
   double stem_radius = 0;
 };
 
-/// Display of the gap between a fingertip and its contact.
-enum class GapView {
-  kNone,  ///< fingers at their contacts, as at the end of a step
-  /// Gaps enlarged by kGapScale, so that approach and retreat are visible. Replaces the arrow,
-  /// whose length limits the gap.
-  kShown,
-};
-inline constexpr double kGapScale = 3;
-
 struct GlyphOptions {
-  GapView gaps = GapView::kNone;
+  /// Whether free fingers that have a normal are drawn: in the air, at FingerState::contact_W.
+  bool free_fingers = false;
   /// True radius of the fingers, in diameters. If not set, spheres and stems have a symbolic size.
   std::optional<double> finger_radius = std::nullopt;
 };
 
-/// Compute the glyphs of all fingers of a snapshot except free ones.
+/// Compute the glyphs of the fingers of a snapshot.
 ///
 /// In narrow places such as a hole or an inner corner, symbolic spheres and stems are smaller, so
 /// that they do not intersect the opposite wall.
@@ -91,7 +83,8 @@ inline constexpr double kConeLength = 0.15;
 inline constexpr double kArrowHeadHalfAngle = 0.36;
 inline constexpr double kArrowHeadLength = 0.040;
 
-/// Add the shapes of a finger: sphere, stem, friction cone and force arrow.
+/// Add the shapes of a finger: sphere, stem, friction cone and force arrow. A free finger has only
+/// the first two.
 ///
 /// A released finger is a ghost with an arrow away from the object, and a placed one has an arrow
 /// towards it. A sliding finger has a ghost at its start and a track with an arrow head.

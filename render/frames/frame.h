@@ -30,20 +30,34 @@ enum class Background { kWhite, kDark, kTransparent };
 /// Index of the camera of all frames without an own camera.
 inline constexpr int kCommonView = -1;
 
+/// Texts of a frame: one line of UTF-8 each; empty for none.
+struct FrameText {
+  std::string caption;        ///< text at the bottom left
+  std::string progress = {};  ///< text at the top right
+};
+
 struct FrameOptions {
   int width = 1280;
   int height = 960;
   int supersampling = 2;  ///< factor by which both axes are rendered larger, before averaging
   BodyOptions body = {};
   ViewOptions view = {};
-  /// Display of fingers in the air (render/frames/finger_glyph.h). It does not affect the camera.
-  GapView gaps = GapView::kNone;
+  /// Whether frames are those of an animation: with free fingers in the air, and without insets.
+  bool animated = false;
+  /// Whether the object is translucent like glass, instead of opaque.
+  bool glass = false;
+  /// Names of the fingers by index; other fingers have their number.
+  std::vector<std::string> finger_names = {};
   /// True radius of the fingers, in object units. If not set, fingers have a symbolic size.
   std::optional<double> finger_radius = std::nullopt;
   /// Whether to leave space at the top for the heading of a failed step.
   bool has_heading = false;
   /// Additional points that must be visible unless they are far away: metres, world frame.
   std::vector<Eigen::Vector3d> also_seen = {};
+  /// Directions that the last snapshot must show from the side, such as the distance of a finger
+  /// from the surface: unit vectors, world frame. If one of them points towards the eye, the
+  /// snapshot gets its own camera.
+  std::vector<Eigen::Vector3d> shown_lengths = {};
   /// Whether to draw the focus point of a concurrent grasp of a solid, the lines to it and its
   /// independent contact regions on planar faces (planner/sets/polyhedron/face_part.h).
   bool show_focus = false;
@@ -61,12 +75,14 @@ struct FrameOptions {
 
 /// A renderer for the frames of a replay.
 ///
-/// The object is translucent with creases and outline. Each finger has a sphere and a stem along
-/// the normal, a number, and a colour that is the same in the whole sequence. Friction cones have
-/// their true angle, and forces are arrows. A placed finger has a ring and an arrow towards the
-/// object. A released finger is a ghost with an arrow away from it. A sliding finger has a ghost at
-/// its start and a dashed track. Planar objects are nearly opaque prisms, seen vertically from
-/// above without perspective, with contacts and flat friction cones on top.
+/// The object is opaque with creases and outline, and fingers behind it shine through faintly. With
+/// a hand its colours depend on the direction of the surface, so that they show its rotation. Each
+/// finger has a sphere and a stem along
+/// the normal, a number or name, and a colour that is the same in the whole sequence. Friction
+/// cones have their true angle, and forces are arrows. A placed finger has a ring and an arrow
+/// towards the object. A released finger is a ghost with an arrow away from it. A sliding finger
+/// has a ghost at its start and a dashed track. Planar objects are nearly opaque prisms, seen
+/// vertically from above without perspective, with contacts and flat friction cones on top.
 ///
 /// One renderer draws a whole plan with one camera, so that frames are comparable. The camera shows
 /// everything that is drawn of `snapshots` (ChooseViewpoints). Unless the direction is given,
@@ -99,11 +115,10 @@ class FrameRenderer {
   [[nodiscard]] bool HasOwnView(int index) const;
 
   /// Draw a frame.
-  /// @param caption  one line of UTF-8 at the bottom left; empty for none.
   /// @param fault    marks of a failed step, whose fingers are red; null for none.
   /// @param view     index of the snapshot in the sequence whose camera is used; kCommonView for
   ///                 the common camera.
-  [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const std::string& caption = "",
+  [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const FrameText& text = {},
                              const FaultMarks* fault = nullptr, int view = kCommonView);
 
  private:

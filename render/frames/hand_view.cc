@@ -173,8 +173,16 @@ std::vector<Shape> HandFigure::Shapes(const plan::Snapshot& snapshot,
   for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
     const Isometry3d pose = PoseOf(snapshot, i);
     const int mesh = first_mesh + 2 * static_cast<int>(i);
-    shapes.push_back({MeshInstance{mesh, pose}, kHandOutline, kHandOpacity});
     shapes.push_back({MeshInstance{mesh + 1, pose}, color_of(i), kHandOpacity});
+  }
+  return shapes;
+}
+
+std::vector<Shape> HandFigure::Rims(const plan::Snapshot& snapshot, int first_mesh) const {
+  std::vector<Shape> shapes;
+  for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+    const int mesh = first_mesh + 2 * static_cast<int>(i);
+    shapes.push_back({MeshInstance{mesh, PoseOf(snapshot, i)}, kHandOutline, kHandOpacity});
   }
   return shapes;
 }

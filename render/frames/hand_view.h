@@ -32,12 +32,14 @@ class HandFigure {
  public:
   HandFigure(const HandView& hand, const NormalizedFrame& frame);
 
-  /// Return the shapes of the links of a snapshot; empty if it has no hand. Fingertips in contact
+  /// Return the links of a snapshot; empty if it has no hand. Fingertips in contact
   /// have a tint of their finger's colour, and links in `at_fault` are red.
   /// @param first_mesh  index of the first mesh of MakeHandMeshes in the canvas.
   [[nodiscard]] std::vector<Shape> Shapes(const plan::Snapshot& snapshot,
                                           std::span<const plan::HandLink> at_fault,
                                           int first_mesh) const;
+  /// Return the shells of these links.
+  [[nodiscard]] std::vector<Shape> Rims(const plan::Snapshot& snapshot, int first_mesh) const;
 
   /// Return the windows through a hand that would hide contacts. The more of a contact is hidden,
   /// the clearer the window.

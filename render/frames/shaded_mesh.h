@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "planner/object/triangle_tree.h"
+#include "render/picture/image.h"
 
 namespace regrasp::render {
 
-/// Triangles with a normal at each corner. Flat triangles have three equal normals.
+/// Triangles with a normal and optionally a colour at each corner. Flat triangles have three equal
+/// normals.
 struct ShadedMesh {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<std::array<Eigen::Vector3d, 3>> normals;
+  std::vector<std::array<Color, 3>> colors = {};  ///< empty: one colour for the whole mesh
 
   void AddFlat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
   void Add(const std::array<Eigen::Vector3d, 3>& corners,

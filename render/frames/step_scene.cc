@@ -4,8 +4,10 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -30,21 +32,32 @@ aiMesh* MakeMesh(const ScenePart& part, unsigned material) {
   mesh->mName = part.name;
   mesh->mMaterialIndex = material;
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  mesh->mNumVertices = 3 * triangles;
-  mesh->mVertices = new aiVector3D[mesh->mNumVertices];
-  mesh->mNormals = new aiVector3D[mesh->mNumVertices];
   mesh->mNumFaces = triangles;
   mesh->mFaces = new aiFace[triangles];
+  // Triangles share vertices with equal positions and normals.
+  std::vector<aiVector3D> points, normals;
+  std::map<std::array<float, 6>, unsigned> indices;
   for (unsigned t = 0; t < triangles; ++t) {
     aiFace& face = mesh->mFaces[t];
     face.mNumIndices = 3;
     face.mIndices = new unsigned[3];
     for (unsigned i = 0; i < 3; ++i) {
-      face.mIndices[i] = 3 * t + i;
-      mesh->mVertices[3 * t + i] = Turned(part.mesh.triangles[t][i]);
-      mesh->mNormals[3 * t + i] = Turned(part.mesh.normals[t][i]);
+      const aiVector3D p = Turned(part.mesh.triangles[t][i]);
+      const aiVector3D n = Turned(part.mesh.normals[t][i]);
+      const auto [known, is_new] =
+          indices.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z}, static_cast<unsigned>(points.size()));
+      if (is_new) {
+        points.push_back(p);
+        normals.push_back(n);
+      }
+      face.mIndices[i] = known->second;
     }
   }
+  mesh->mNumVertices = static_cast<unsigned>(points.size());
+  mesh->mVertices = new aiVector3D[points.size()];
+  mesh->mNormals = new aiVector3D[points.size()];
+  std::ranges::copy(points, mesh->mVertices);
+  std::ranges::copy(normals, mesh->mNormals);
   return mesh;
 }
 

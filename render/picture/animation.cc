@@ -118,20 +118,20 @@ class WebpAnimation : public Animation {
   WebpAnimation(const WebpAnimation&) = delete;
   WebpAnimation& operator=(const WebpAnimation&) = delete;
 
-  void Add(const Image& image, int duration_ms) override {
-    if (image.width != width_ || image.height != height_ || duration_ms < 1) {
+  void Add(const Image& image, int frames) override {
+    if (image.width != width_ || image.height != height_ || frames < 1) {
       throw std::invalid_argument(
           "WebpAnimation: images must have one size and a positive duration");
     }
     WebpImage webp_image(image);
-    RequireWebp(WebPAnimEncoderAdd(encoder_, webp_image.get(), time_ms_, &config_) != 0);
-    time_ms_ += duration_ms;
+    RequireWebp(WebPAnimEncoderAdd(encoder_, webp_image.get(), time_ms(), &config_) != 0);
+    frames_ += frames;
   }
 
   std::string Finish() override {
-    assert(time_ms_ > 0);
+    assert(frames_ > 0);
     // A null image marks the end of the last frame.
-    RequireWebp(WebPAnimEncoderAdd(encoder_, nullptr, time_ms_, nullptr) != 0);
+    RequireWebp(WebPAnimEncoderAdd(encoder_, nullptr, time_ms(), nullptr) != 0);
     WebPData data;
     WebPDataInit(&data);
     const bool good = WebPAnimEncoderAssemble(encoder_, &data) != 0;
@@ -142,10 +142,12 @@ class WebpAnimation : public Animation {
   }
 
  private:
+  [[nodiscard]] int time_ms() const { return 1000 * frames_ / kFramesPerSecond; }
+
   int width_, height_;
   WebPConfig config_;
   WebPAnimEncoder* encoder_ = nullptr;
-  int time_ms_ = 0;
+  int frames_ = 0;  ///< duration up to now
 };
 
 }  // namespace

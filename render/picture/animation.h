@@ -28,8 +28,8 @@ enum class AnimationFormat {
 /// Return the media type of a format, for example "video/mp4".
 [[nodiscard]] std::string_view MediaType(AnimationFormat format);
 
-/// Time unit of animations in milliseconds: 20 frames per second.
-inline constexpr int kTick_ms = 50;
+/// Frames per second of animations. The duration of an image is a number of frames.
+inline constexpr int kFramesPerSecond = 30;
 
 /// An animation that is being written: a sequence of images with a duration each.
 ///
@@ -39,10 +39,10 @@ class Animation {
   virtual ~Animation() = default;
 
   /// Append an image.
-  /// @param duration_ms  display time of the image, a positive multiple of kTick_ms.
+  /// @param frames  display time of the image, frames, ≥ 1.
   /// @throws std::invalid_argument  if the size differs from that of the first image, or if the
   ///                                duration is invalid.
-  virtual void Add(const Image& image, int duration_ms) = 0;
+  virtual void Add(const Image& image, int frames) = 0;
 
   /// Return the bytes of the file and end the animation. Nothing can be added afterwards.
   /// @pre  at least one image was added.
@@ -69,7 +69,7 @@ class Animation {
 /// @throws std::invalid_argument  if WebP does not support the size.
 [[nodiscard]] std::unique_ptr<Animation> MakeWebpAnimation(int width, int height);
 
-/// Start an MP4 file with H.264 video, one frame per kTick_ms, using the ffmpeg libraries.
+/// Start an MP4 file with H.264 video, kFramesPerSecond, using the ffmpeg libraries.
 /// @throws std::invalid_argument  if the size is not supported.
 /// @throws EnvironmentError       if libavcodec has no libx264.
 [[nodiscard]] std::unique_ptr<Animation> MakeMp4(int width, int height);
@@ -79,7 +79,7 @@ inline constexpr int kGifColors = 255;
 
 /// Start a GIF with one palette for all frames, using the ffmpeg libraries.
 ///
-/// Each pixel gets the nearest palette colour, without dithering.
+/// Each pixel gets the nearest palette colour, without dithering. Times are rounded to 10 ms.
 /// @param colors  palette of 1 to kGifColors colours.
 /// @throws std::invalid_argument  if the size or the number of colours is not supported.
 [[nodiscard]] std::unique_ptr<Animation> MakeGif(int width, int height,

@@ -22,6 +22,12 @@ double RoundLength(double limit) {
   return power;
 }
 
+std::string FingerLabel(FingerIndex finger, std::span<const std::string> names) {
+  const auto index = static_cast<std::size_t>(static_cast<int>(finger));
+  const bool named = index < names.size() && !names[index].empty();
+  return named ? names[index] : std::to_string(finger);
+}
+
 namespace {
 
 /// Smallest rotation (radians) and translation (metres) that are reported. Smaller ones are
@@ -31,10 +37,12 @@ constexpr double kMinTranslation = 1e-5;
 /// Significant digits of a length.
 constexpr int kDigits = 2;
 
-std::string List(const std::vector<FingerIndex>& fingers) {
+using Names = std::span<const std::string>;
+
+std::string List(const std::vector<FingerIndex>& fingers, Names names) {
   std::string text;
   for (const FingerIndex finger : fingers)
-    text += (text.empty() ? "" : ", ") + std::to_string(finger);
+    text += (text.empty() ? "" : ", ") + FingerLabel(finger, names);
   return text;
 }
 
@@ -75,24 +83,24 @@ std::vector<Travel> MovedFingers(const plan::Align& align) {
   return moved;
 }
 
-std::string Describe(const plan::Switch& step) {
+std::string Describe(const plan::Switch& step, Names names) {
   std::string text = "switch:";
-  if (!step.place.empty()) text += " place " + List(FingersOf(step.place));
+  if (!step.place.empty()) text += " place " + List(FingersOf(step.place), names);
   if (!step.release.empty()) {
-    text += (step.place.empty() ? " release " : ", release ") + List(step.release);
+    text += (step.place.empty() ? " release " : ", release ") + List(step.release, names);
   }
   return text;
 }
 
-std::string Describe(const plan::Align& step) {
+std::string Describe(const plan::Align& step, Names names) {
   std::vector<FingerIndex> fingers;
   for (const Travel& travel : MovedFingers(step)) fingers.push_back(travel.finger);
-  return fingers.empty() ? "align" : "align: move " + List(fingers);
+  return fingers.empty() ? "align" : "align: move " + List(fingers, names);
 }
 
 /// Return "move: rotate the object by 38°", or "move: translate the object by 2.1 mm" if it does
 /// not rotate.
-std::string Describe(const plan::Move& step) {
+std::string Describe(const plan::Move& step, Names /*names*/) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
@@ -110,14 +118,14 @@ std::string Describe(const plan::Move& step) {
 /// surface".
 ///
 /// Fingers that start later follow "then". Empty if no finger moves.
-std::string DescribeTravel(const plan::Align& step, double scale) {
+std::string DescribeTravel(const plan::Align& step, double scale, Names names) {
   const std::vector<Travel> moved = MovedFingers(step);
   if (moved.empty()) return "";
   std::string text;
   int before = moved.front().begin;
   for (const auto& [finger, length, begin] : moved) {
     text += text.empty() ? "move " : begin == before ? ", " : ", then ";
-    text += std::to_string(finger) + " by " + FormatLength(length * scale, kDigits);
+    text += FingerLabel(finger, names) + " by " + FormatLength(length * scale, kDigits);
     before = begin;
   }
   const bool together = moved.size() > 1 && moved.front().begin == moved.back().begin;
@@ -126,18 +134,19 @@ std::string DescribeTravel(const plan::Align& step, double scale) {
 
 }  // namespace
 
-std::string EntryTitle(const plan::Plan& plan, plan::EntryIndex entry) {
-  if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial));
-  return std::visit([](const auto& kind) { return Describe(kind); }, plan::StepOf(plan, entry));
+std::string EntryTitle(const plan::Plan& plan, plan::EntryIndex entry, Names names) {
+  if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial), names);
+  return std::visit([names](const auto& kind) { return Describe(kind, names); },
+                    plan::StepOf(plan, entry));
 }
 
-std::string FrameCaption(const plan::Plan& plan, plan::EntryIndex entry) {
-  if (entry == 0) return EntryTitle(plan, entry);
+std::string FrameCaption(const plan::Plan& plan, plan::EntryIndex entry, Names names) {
+  if (entry == 0) return EntryTitle(plan, entry, names);
   const std::string step =
       "step " + std::to_string(entry) + "/" + std::to_string(plan.steps.size());
   const auto* align = std::get_if<plan::Align>(&plan::StepOf(plan, entry));
-  const std::string travel = align != nullptr ? DescribeTravel(*align, plan.scale) : "";
-  return step + " · " + (travel.empty() ? EntryTitle(plan, entry) : "align: " + travel);
+  const std::string travel = align != nullptr ? DescribeTravel(*align, plan.scale, names) : "";
+  return step + " · " + (travel.empty() ? EntryTitle(plan, entry, names) : "align: " + travel);
 }
 
 namespace {

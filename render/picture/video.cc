@@ -30,7 +30,7 @@ constexpr char kRateFactor[] = "18";
 constexpr int kFramesBetweenKeys = 40;
 
 /// Time unit of GIF.
-constexpr int kCentisecond_ms = 10;
+constexpr int kGifTicksPerSecond = 100;
 
 /// Functions of the ffmpeg libraries that are used, by library.
 // clang-format off
@@ -190,7 +190,7 @@ class Encoder {
     const AVCodec* codec;
     AVPixelFormat pixels;
     int width, height;
-    int tick_ms;  ///< time unit, milliseconds
+    int ticks_per_second;  ///< inverse of the time unit
     /// Whether an MP4 has its index at the start, so that a player can start before the whole file
     /// is loaded.
     bool index_first = false;
@@ -206,7 +206,7 @@ class Encoder {
     codec_->width = settings.width;
     codec_->height = settings.height;
     codec_->pix_fmt = settings.pixels;
-    codec_->time_base = {settings.tick_ms, 1000};
+    codec_->time_base = {1, settings.ticks_per_second};
     codec_->framerate = av_inv_q(codec_->time_base);
     codec_->gop_size = kFramesBetweenKeys;
     codec_->thread_count = 1;
@@ -322,23 +322,22 @@ class Video : public Animation {
     ffmpeg().av_log_set_level(AV_LOG_QUIET);  // a library must not print
   }
 
-  void Add(const Image& image, int duration_ms) final {
-    if (image.width != width_ || image.height != height_ || duration_ms < kTick_ms ||
-        duration_ms % kTick_ms != 0) {
+  void Add(const Image& image, int frames) final {
+    if (image.width != width_ || image.height != height_ || frames < 1) {
       throw std::invalid_argument("video: images must have one size and a supported duration");
     }
-    AddImage(image, duration_ms);
-    time_ms_ += duration_ms;
+    AddImage(image, frames);
+    begin_ += frames;
   }
 
  protected:
-  virtual void AddImage(const Image& image, int duration_ms) = 0;
-  /// Start time of the next image, milliseconds.
-  [[nodiscard]] int time_ms() const { return time_ms_; }
+  virtual void AddImage(const Image& image, int frames) = 0;
+  /// Start time of the next image, frames.
+  [[nodiscard]] int begin() const { return begin_; }
 
  private:
   int width_, height_;
-  int time_ms_ = 0;
+  int begin_ = 0;
 };
 
 const AVCodec* FindX264() {
@@ -359,7 +358,7 @@ class Mp4 : public Video {
                   AV_PIX_FMT_YUV420P,
                   Even(width),
                   Even(height),
-                  kTick_ms,
+                  kFramesPerSecond,
                   /*index_first=*/true,
                   // "mbtree" uses floating-point estimates that depend on the processor.
                   {{"preset", "medium"},
@@ -370,13 +369,11 @@ class Mp4 : public Video {
   std::string Finish() override { return encoder_.Finish(); }
 
  private:
-  /// Encode an image once per tick. Repetitions need few bytes, and programs for slides and editing
-  /// expect a constant frame rate.
-  void AddImage(const Image& image, int duration_ms) override {
+  /// Encode an image once per frame. Repetitions need few bytes, and programs for slides and
+  /// editing expect a constant frame rate.
+  void AddImage(const Image& image, int frames) override {
     Convert(image, encoder_.NextFrame());
-    for (int at = 0; at < duration_ms; at += kTick_ms) {
-      encoder_.Encode((time_ms() + at) / kTick_ms);
-    }
+    for (int i = 0; i < frames; ++i) encoder_.Encode(begin() + i);
   }
 
   Encoder encoder_;
@@ -388,16 +385,16 @@ class Gif : public Video {
       : Video(width, height),
         colors_(colors),
         encoder_({"gif", ffmpeg().avcodec_find_encoder(AV_CODEC_ID_GIF), AV_PIX_FMT_PAL8, width,
-                  height, kCentisecond_ms}) {}
+                  height, kGifTicksPerSecond}) {}
 
   std::string Finish() override {
     Require(ffmpeg().av_opt_set_int(encoder_.muxer().context().priv_data, "final_delay",
-                                    last_duration_ms_ / kCentisecond_ms, 0));
+                                    Ticks(begin()) - Ticks(last_begin_), 0));
     return encoder_.Finish();
   }
 
  private:
-  void AddImage(const Image& image, int duration_ms) override {
+  void AddImage(const Image& image, int /*frames*/) override {
     AVFrame& frame = encoder_.NextFrame();
     SetPalette(reinterpret_cast<std::uint32_t*>(frame.data[1]));
     const unsigned char* in = image.rgb.data();
@@ -407,8 +404,11 @@ class Gif : public Video {
         out[x] = colors_.Nearest({in[0], in[1], in[2]});
       }
     }
-    encoder_.Encode(time_ms() / kCentisecond_ms);
-    last_duration_ms_ = duration_ms;
+    encoder_.Encode(Ticks(begin()));
+    last_begin_ = begin();
+  }
+  [[nodiscard]] static int Ticks(int frames) {
+    return frames * kGifTicksPerSecond / kFramesPerSecond;
   }
   /// Write the ARGB palette. Unused entries are transparent and mark pixels that do not change.
   void SetPalette(std::uint32_t* argb) const {
@@ -420,7 +420,7 @@ class Gif : public Video {
 
   ColorTable colors_;
   Encoder encoder_;
-  int last_duration_ms_ = 0;
+  int last_begin_ = 0;
 };
 
 }  // namespace

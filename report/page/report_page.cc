@@ -22,12 +22,14 @@ namespace {
 class Page {
  public:
   Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures,
-       const PagePicture& moving, std::string_view viewer)
+       const PagePicture& moving, std::string_view viewer,
+       std::span<const std::string> finger_names)
       : report_(report),
         plan_(plan),
         pictures_(pictures),
         moving_(moving),
         viewer_(viewer),
+        finger_names_(finger_names),
         measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
@@ -42,7 +44,7 @@ class Page {
     Parts all;
     for (const Parts& parts :
          {Parts{Header()}, Viewer(), StillFrame(),
-          MakeStepTable(report_, plan_, measures_, Anchors()), Plots(),
+          MakeStepTable(report_, plan_, measures_, Anchors(), finger_names_), Plots(),
           Parts{MakeFacts(report_, measures_)}, MakeFingerTable(report_), MakeGoalSection(report_),
           MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
           Replay(), Frames()}) {
@@ -126,7 +128,7 @@ class Page {
     std::string text;
     if (!report_.grasp) {
       text = "at " + StepName(*failed_);
-      if (*failed_ > 0) text += " (" + render::EntryTitle(plan_, *failed_) + ")";
+      if (*failed_ > 0) text += " (" + render::EntryTitle(plan_, *failed_, finger_names_) + ")";
       text += ": ";
     }
     text = Capitalized(text + failure.reason + ".");
@@ -228,8 +230,9 @@ class Page {
     }
     if (frames.empty()) return {};
     return {Element("h2", {}, "Frames"),
-            Note("Each picture shows the state after its step. A finger keeps its number and "
-                 "colour; a cone is what friction allows, an arrow the force. A ring marks a "
+            Note("Each picture shows the state after its step. A finger keeps its name or "
+                 "number and its colour; a cone is what friction allows, an arrow the force. A "
+                 "ring marks a "
                  "finger just placed, a pale finger with an arrow one that leaves, a dashed line "
                  "the path of one that moved."),
             Element("div", {{"class", "frames"}}, frames)};
@@ -238,7 +241,7 @@ class Page {
   [[nodiscard]] Parts Replay() const {
     if (moving_.bytes.empty()) return {};
     const std::string text =
-        "The replay, slowed down most where something moves. Every step rests at its end.";
+        "The motion between the static grasps, with a short pause after each step.";
     const std::string name = "The replay as a moving picture";
     const bool video = moving_.media_type.starts_with("video/");
     return {Element("div", {{"class", "replay"}},
@@ -271,9 +274,9 @@ class Page {
   [[nodiscard]] Element Frame(const ReportStep& step) const {
     const plan::EntryIndex index = step.check.index;
     const PagePicture& picture = pictures_[index];
-    const std::string name =
-        index == 0 ? StepTitle(plan_, index)
-                   : "Step " + std::to_string(index) + ", " + render::EntryTitle(plan_, index);
+    const std::string name = index == 0 ? StepTitle(plan_, index, finger_names_)
+                                        : "Step " + std::to_string(index) + ", " +
+                                              render::EntryTitle(plan_, index, finger_names_);
     const bool failed = step.verdict() == Verdict::kFail;
     std::string text = failed ? std::string(plan::ReasonName(step.reason())) + ": " + step.detail()
                               : VerdictText(step);
@@ -290,6 +293,7 @@ class Page {
   const std::vector<PagePicture>& pictures_;
   const PagePicture& moving_;
   std::string_view viewer_;
+  std::span<const std::string> finger_names_;
   std::vector<StepMeasures> measures_;
   std::optional<plan::EntryIndex> failed_;
   std::optional<plan::EntryIndex> still_;  ///< entry of the image below the verdict
@@ -299,14 +303,14 @@ class Page {
 
 std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                              const std::vector<PagePicture>& pictures, const PagePicture& moving,
-                             std::string_view viewer) {
+                             std::string_view viewer, std::span<const std::string> finger_names) {
   assert(pictures.empty() || pictures.size() == report.steps.size());
-  return Page(report, plan, pictures, moving, viewer).Format();
+  return Page(report, plan, pictures, moving, viewer, finger_names).Format();
 }
 
 std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
                              std::string_view viewer) {
-  return Page(report, plan, {}, {}, viewer).FormatViewer();
+  return Page(report, plan, {}, {}, viewer, {}).FormatViewer();
 }
 
 int PagePictureWidth(int count) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,10 +31,12 @@ struct PagePicture {
 /// @param pictures  one image per entry of the report, or none at all.
 /// @param moving    animation of the replay, if there is one; omitted in print.
 /// @param viewer    data of the interactive replay (render::FormatViewerScene); empty: none.
+/// @param finger_names  names of fingers by index; other fingers have their number.
 [[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                                            const std::vector<PagePicture>& pictures,
                                            const PagePicture& moving = {},
-                                           std::string_view viewer = "");
+                                           std::string_view viewer = "",
+                                           std::span<const std::string> finger_names = {});
 
 /// Return a page with the verdict and the interactive 3-D replay only.
 /// @param viewer  data of the replay (render::FormatViewerScene).

@@ -109,8 +109,9 @@ std::vector<StepMeasures> MeasureSteps(const Report& report) {
   return all;
 }
 
-std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index) {
-  return Capitalized(render::EntryTitle(plan, index));
+std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index,
+                      std::span<const std::string> finger_names) {
+  return Capitalized(render::EntryTitle(plan, index, finger_names));
 }
 
 std::string StepName(plan::EntryIndex index) {
@@ -182,7 +183,8 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
 
 std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                    const std::vector<StepMeasures>& measures,
-                                   const std::vector<std::string>& anchors) {
+                                   const std::vector<std::string>& anchors,
+                                   std::span<const std::string> finger_names) {
   const std::vector<Element> head = {HeadCell("Step"),
                                      HeadCell("Verdict", ""),
                                      HeadCell("Description", ""),
@@ -194,7 +196,8 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {
     const plan::EntryIndex index = step.check.index;
-    rows.push_back(StepRow(step, StepTitle(plan, index), measures[index], anchors[index]));
+    rows.push_back(
+        StepRow(step, StepTitle(plan, index, finger_names), measures[index], anchors[index]));
   }
   return {
       ScrolledTable(head, rows),

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,7 +58,8 @@ struct StepMeasures {
 [[nodiscard]] std::vector<StepMeasures> MeasureSteps(const Report& report);
 
 /// Return the title of an entry with an upper-case first letter: "Switch: place 4, release 0".
-[[nodiscard]] std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index);
+[[nodiscard]] std::string StepTitle(const plan::Plan& plan, plan::EntryIndex index,
+                                    std::span<const std::string> finger_names = {});
 
 /// Return the name of an entry in a sentence: "the hold", "step 3".
 [[nodiscard]] std::string StepName(plan::EntryIndex index);
@@ -73,9 +75,11 @@ struct StepMeasures {
 /// replay, and the verdict.
 /// @param measures  measures of each entry (MeasureSteps).
 /// @param anchors   id of the image of each entry in the page; empty if there is none.
+/// @param finger_names  names of fingers by index; other fingers have their number.
 [[nodiscard]] std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                                  const std::vector<StepMeasures>& measures,
-                                                 const std::vector<std::string>& anchors);
+                                                 const std::vector<std::string>& anchors,
+                                                 std::span<const std::string> finger_names = {});
 
 /// Return a table of the friction that each finger of a single grasp requires; empty if unknown.
 [[nodiscard]] std::vector<Element> MakeFingerTable(const Report& report);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "planner/base/number.h"
 #include "planner/object/rotation.h"
@@ -84,31 +83,6 @@ std::vector<Passing> Spread(const plan::HandPath& path) {
   return states;
 }
 
-/// Move fingers to their contacts on the object in its initial pose (Snapshot::X_WO).
-void SetContacts(const plan::FingerGrasp& grasp, double scale, plan::Snapshot& snapshot) {
-  for (plan::FingerState& finger : snapshot.fingers) {
-    const plan::FingerContact* held = plan::FindFinger(grasp, finger.finger);
-    if (held == nullptr) continue;
-    const Vector3d from_contact = finger.tip_W - finger.contact_W;
-    finger.contact_W = scale * held->contact.p;
-    finger.tip_W = finger.contact_W + from_contact;
-    finger.normal_W = held->contact.n;
-  }
-}
-
-/// Return the holding fingers only, without the paths of their approach.
-plan::Snapshot Holding(plan::Snapshot rest, const std::vector<FingerIndex>& but = {}) {
-  std::erase_if(rest.fingers, [&](const plan::FingerState& finger) {
-    return finger.role == plan::FingerRole::kFree || finger.role == plan::FingerRole::kReleased ||
-           std::ranges::find(but, finger.finger) != but.end();
-  });
-  for (plan::FingerState& finger : rest.fingers) {
-    finger.role = plan::FingerRole::kHolding;
-    finger.path_W.clear();
-  }
-  return rest;
-}
-
 }  // namespace
 
 HandPicture::HandPicture(const kinematics::HandFile& hand, const plan::Plan& plan,
@@ -173,27 +147,67 @@ void HandPicture::Stand(const HandState& state, plan::Snapshot& snapshot) const 
   const Isometry3d motion = X_WP_ * state.pose;
   snapshot.X_WO = motion * snapshot.X_WO;
   for (plan::FingerState& finger : snapshot.fingers) Move(motion, finger);
+  PlaceLinks(state.joints, snapshot);
+}
+
+void HandPicture::PlaceLinks(const std::vector<std::vector<double>>& joints,
+                             plan::Snapshot& snapshot) const {
   snapshot.X_WP = X_WP_;
   snapshot.links_W.clear();
   for (const kinematics::LinkVisual& link : links_) {
-    snapshot.links_W.push_back(X_WP_ * kinematics::LinkPose(link, hand_, state.joints));
+    snapshot.links_W.push_back(X_WP_ * kinematics::LinkPose(link, hand_, joints));
   }
 }
 
-std::vector<Vector3d> HandPicture::Reached(const plan::Snapshot& snapshot) const {
-  std::vector<Vector3d> points;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Isometry3d& pose = snapshot.links_W[i];
-    points.push_back(pose.translation());
-    for (const auto& [from, to, radius] : links_[i].capsules) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const double sign : {-1.0, 1.0}) {
-          points.push_back(pose * to + sign * radius * Vector3d::Unit(axis));
-        }
-      }
+std::vector<std::string> HandPicture::FingerNames() const {
+  std::vector<std::string> names;
+  for (const kinematics::Finger& finger : hand_.fingers) names.push_back(finger.name);
+  return names;
+}
+
+std::vector<Isometry3d> HandPicture::PlannedPoses() const {
+  std::vector<Isometry3d> poses;
+  for (plan::EntryIndex entry{0}; entry < std::ssize(states_); ++entry) {
+    for (const HandState& state : StatesAlong(entry)) poses.push_back(X_WP_ * state.pose);
+  }
+  return poses;
+}
+
+void HandPicture::MarkSwitch(plan::EntryIndex entry, plan::Snapshot& snapshot) const {
+  if (entry == 0) return;
+  const auto* change = std::get_if<plan::Switch>(&plan::StepOf(plan_, entry));
+  if (change == nullptr) return;
+  for (plan::FingerState& finger : snapshot.fingers) {
+    if (plan::FindFinger(change->place, finger.finger) != nullptr) {
+      finger.role = plan::FingerRole::kPlaced;
     }
   }
-  return points;
+  plan::FingerGrasp before = plan_.initial;
+  for (plan::EntryIndex k{1}; k < entry; ++k) {
+    before = plan::GraspAfter(before, plan::StepOf(plan_, k));
+  }
+  for (const FingerIndex released : change->release) {
+    const plan::FingerContact* held = plan::FindFinger(before, released);
+    if (held == nullptr) continue;
+    std::erase_if(snapshot.fingers,
+                  [&](const plan::FingerState& finger) { return finger.finger == released; });
+    plan::FingerState& finger = snapshot.fingers.emplace_back();
+    finger.finger = released;
+    finger.role = plan::FingerRole::kReleased;
+    finger.contact_W = plan_.scale * held->contact.p;
+    finger.normal_W = held->contact.n;
+    finger.tip_W = finger.contact_W - snapshot.fingertip_radius_m * finger.normal_W;
+  }
+}
+
+void HandPicture::Pose(std::span<const double> joints, plan::Snapshot& snapshot) const {
+  std::vector<std::vector<double>> by_finger;
+  for (const kinematics::Finger& finger : hand_.fingers) {
+    const auto own = joints.first(finger.joints.size());
+    by_finger.emplace_back(own.begin(), own.end());
+    joints = joints.subspan(own.size());
+  }
+  PlaceLinks(by_finger, snapshot);
 }
 
 std::vector<HandState> HandPicture::StatesAlong(plan::EntryIndex entry) const {
@@ -222,41 +236,6 @@ void HandPicture::Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::
   if (moves) {
     snapshot.X_WO_before = X_WP_ * states_[plan::EntryIndex(entry - 1)].pose;
   }
-}
-
-std::vector<plan::Snapshot> HandPicture::Between(plan::EntryIndex entry,
-                                                 const plan::Snapshot& before,
-                                                 const plan::Snapshot& after) const {
-  std::vector<plan::Snapshot> pictures;
-  /// @param set_contacts  sets the contacts of a frame, for the share of the path's steps before
-  /// it.
-  const auto add = [&](const plan::HandPath& path, const plan::Snapshot& seen,
-                       const std::function<void(double, plan::Snapshot&)>& set_contacts) {
-    if (!std::ranges::all_of(path, [this](const HandState& state) { return Fits(state); })) return;
-    for (const auto& [state, share] : Spread(path)) {
-      pictures.push_back(seen);
-      set_contacts(share, pictures.back());
-      Stand(state, pictures.back());
-    }
-  };
-  const auto as_seen = [](double /*share*/, plan::Snapshot& /*picture*/) {};
-  if (entry == 0) return pictures;
-  const plan::Step& step = plan::StepOf(plan_, entry);
-  if (const auto* move = std::get_if<plan::Move>(&step)) add(move->path, Holding(before), as_seen);
-  if (const auto* align = std::get_if<plan::Align>(&step); align != nullptr && align->motion) {
-    const std::size_t ways = std::min(align->motion->size(), align->waypoints.size() - 1);
-    for (std::size_t w = 0; w < ways; ++w) {
-      add((*align->motion)[w], Holding(before), [&](double share, plan::Snapshot& picture) {
-        SetContacts(plan::GraspBetween(align->waypoints[w], align->waypoints[w + 1], share),
-                    plan_.scale, picture);
-      });
-    }
-  }
-  const auto* change = std::get_if<plan::Switch>(&step);
-  if (change == nullptr || !change->motion) return pictures;
-  add(change->motion->place, Holding(before), as_seen);
-  add(change->motion->release, Holding(after, change->release), as_seen);
-  return pictures;
 }
 
 }  // namespace regrasp::report

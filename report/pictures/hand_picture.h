@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "planner/kinematics/hand_file.h"
@@ -11,6 +13,14 @@
 #include "render/frames/hand_view.h"
 
 namespace regrasp::report {
+
+/// A state during a replay by a hand, in the palm's frame.
+struct HandSample {
+  plan::EntryIndex entry{0};
+  double time_s = 0;
+  plan::HandState state;
+  std::vector<plan::FingerState> fingers = {};  ///< fingers that press on the object
+};
 
 /// The hand of a plan in frames. The palm is fixed, its up direction is vertical, and the object
 /// moves.
@@ -24,6 +34,8 @@ class HandPicture {
   [[nodiscard]] const std::shared_ptr<const render::HandView>& view() const { return view_; }
 
   [[nodiscard]] const kinematics::HandModel& hand() const { return hand_; }
+  /// Return the names of the fingers by index.
+  [[nodiscard]] std::vector<std::string> FingerNames() const;
   [[nodiscard]] const Eigen::Isometry3d& X_WP() const { return X_WP_; }
   /// Return the planned state of hand and object at the end of an entry.
   [[nodiscard]] const plan::HandState& EndOf(plan::EntryIndex entry) const {
@@ -32,6 +44,9 @@ class HandPicture {
   /// Return the planned states of an entry from its start to its end, evenly spaced in joint angle
   /// and object motion.
   [[nodiscard]] std::vector<plan::HandState> StatesAlong(plan::EntryIndex entry) const;
+
+  /// Return the poses of the object along the whole plan, in the world frame.
+  [[nodiscard]] std::vector<Eigen::Isometry3d> PlannedPoses() const;
 
   /// Return whether a state has the joints of the hand.
   [[nodiscard]] bool Fits(const plan::HandState& state) const;
@@ -44,20 +59,17 @@ class HandPicture {
   void Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault,
              const plan::HandState* actual = nullptr) const;
 
-  /// Return hand and object at instants between the ends of the previous entry and of this one.
-  /// The instants are evenly spaced in joint angle and object motion. Until fingers break contact,
-  /// holding fingers have the forces of the static grasp before, then those of the static grasp
-  /// after.
-  /// @param before, after  snapshots of the two ends, not placed yet.
-  [[nodiscard]] std::vector<plan::Snapshot> Between(plan::EntryIndex entry,
-                                                    const plan::Snapshot& before,
-                                                    const plan::Snapshot& after) const;
+  /// Mark the fingers that a finger switch places and releases. Other entries do not change.
+  /// @param snapshot  static grasp after the entry, not placed yet.
+  void MarkSwitch(plan::EntryIndex entry, plan::Snapshot& snapshot) const;
 
-  /// Return points that approximately bound the hand of a placed snapshot.
-  [[nodiscard]] std::vector<Eigen::Vector3d> Reached(const plan::Snapshot& snapshot) const;
+  /// Set the links of a snapshot.
+  /// @param joints  joint angles of all fingers, one after the other, radians.
+  void Pose(std::span<const double> joints, plan::Snapshot& snapshot) const;
 
  private:
   void Stand(const plan::HandState& state, plan::Snapshot& snapshot) const;
+  void PlaceLinks(const std::vector<std::vector<double>>& joints, plan::Snapshot& snapshot) const;
   [[nodiscard]] std::vector<plan::HandState> StatesOf(const plan::Plan& plan) const;
 
   const plan::Plan& plan_;

@@ -323,6 +323,15 @@ std::vector<FingerIndex> FingersOf(const std::vector<ShownEntry>& entries) {
   return {fingers.begin(), fingers.end()};
 }
 
+ReplayTimeline MakeTimeline(const object::Object& object, const Report& report,
+                            const std::vector<ShownEntry>& entries,
+                            const std::vector<FingerIndex>& fingers, const HandPicture* hand,
+                            const std::vector<HandSample>& samples) {
+  if (hand != nullptr) return MakeHandTimeline(entries, fingers, *hand, samples);
+  return MakePointTimeline(entries, fingers, report.scale * object.mass_properties().centroid,
+                           report.scale * object.diameter());
+}
+
 ReplayTimeline MakePointTimeline(const std::vector<ShownEntry>& entries,
                                  const std::vector<FingerIndex>& fingers,
                                  const Vector3d& centroid_m, double diameter_m) {

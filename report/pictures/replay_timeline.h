@@ -10,14 +10,6 @@
 
 namespace regrasp::report {
 
-/// A state during a replay by a hand, in the palm's frame.
-struct HandSample {
-  plan::EntryIndex entry{0};
-  double time_s = 0;
-  plan::HandState state;
-  std::vector<plan::FingerState> fingers = {};  ///< fingers that press on the object
-};
-
 /// A replay over time: states in the world frame, and the time at which each entry ends. Each entry
 /// starts at the end of the entry before it, the first at 0.
 struct ReplayTimeline {
@@ -28,6 +20,14 @@ struct ReplayTimeline {
 
 /// Return the fingers that any of the entries shows, ascending and at most kMostDrawnFingers.
 [[nodiscard]] std::vector<FingerIndex> FingersOf(const std::vector<ShownEntry>& entries);
+
+/// Return the motion between the entries of a plan (MakePointTimeline, MakeHandTimeline).
+/// @param hand  hand of the plan; null: fingers without a hand.
+[[nodiscard]] ReplayTimeline MakeTimeline(const object::Object& object, const Report& report,
+                                          const std::vector<ShownEntry>& entries,
+                                          const std::vector<FingerIndex>& fingers,
+                                          const HandPicture* hand,
+                                          const std::vector<HandSample>& samples);
 
 /// Return the motion of a plan without a hand, from the static grasp after each entry.
 ///

@@ -11,6 +11,7 @@
 #include "render/frames/hand_view.h"
 #include "render/frames/viewpoint.h"
 #include "render/picture/caption.h"
+#include "report/pictures/object_progress.h"
 
 namespace regrasp::report {
 
@@ -20,10 +21,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using render::ViewerScene;
 
-/// Smallest planned rotation that is shown as a goal, radians.
-constexpr double kLeastGoalTurn = Radians(0.5);
-/// Least share of creases among the edges at which a surface bends, for creases to be drawn.
-constexpr double kLeastCreaseShare = 0.25;
 /// Distance between the surfaces of successive links, in object diameters. Links that share a
 /// sphere at a joint would flicker without it.
 constexpr double kLinkGap = 1.5e-3;
@@ -67,29 +64,14 @@ std::string TitleOf(const plan::Plan& plan, plan::EntryIndex entry, const HandPi
                                                   : "Slide: fingers move along the surface";
 }
 
-Vector3d RotationVector(const Isometry3d& from, const Isometry3d& to) {
-  const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
-  return turn.angle() * turn.axis();
-}
-
-/// Set the angle that the object has turned at each sample, about the axis of the planned rotation.
-void AddTurns(const HandPicture& hand, int entries, ViewerScene& scene) {
-  Vector3d planned = Vector3d::Zero();
-  for (plan::EntryIndex entry{1}; entry < entries; ++entry) {
-    const std::vector<plan::HandState> states = hand.StatesAlong(entry);
-    for (std::size_t i = 1; i < states.size(); ++i) {
-      planned += RotationVector(hand.X_WP() * states[i - 1].pose, hand.X_WP() * states[i].pose);
-    }
-  }
-  if (!(planned.norm() > kLeastGoalTurn)) return;
-  scene.goal_turn = planned.norm();
-  double turned = 0;
+/// Set the angle that the object has rotated at each sample.
+void AddTurns(const HandPicture& hand, ViewerScene& scene) {
+  ObjectProgress progress(hand.PlannedPoses());
+  scene.goal_turn = progress.goal_angle();
+  if (!scene.goal_turn) return;
   for (std::size_t i = 0; i < scene.samples.size(); ++i) {
-    if (i > 0) {
-      turned += RotationVector(scene.samples[i - 1].X_WO, scene.samples[i].X_WO)
-                    .dot(planned.normalized());
-    }
-    scene.turned.push_back(turned);
+    if (i > 0) progress.Follow(scene.samples[i].X_WO);
+    scene.turned.push_back(progress.angle());
   }
 }
 
@@ -126,11 +108,6 @@ void AddBody(const render::BodyShape& body, const render::NormalizedFrame& frame
   scene.object = body.surface;
   for (auto& corners : scene.object.triangles) {
     for (Vector3d& p : corners) p = in_metres(p);
-  }
-  // The few creases of a curved surface, such as a scan, would look like scratches.
-  if (static_cast<double>(body.edges.size()) <
-      kLeastCreaseShare * static_cast<double>(body.folds.size())) {
-    return;
   }
   for (const auto& [a, b] : body.edges) scene.edges.push_back({in_metres(a), in_metres(b)});
 }
@@ -219,13 +196,7 @@ ViewerScene MakeViewerScene(const object::Object& object, const plan::Plan& plan
                             const DrawingOptions& options, const std::vector<HandSample>& samples,
                             const Report& report) {
   const HandPicture* hand = options.hand;
-  const plan::HandState* actual = nullptr;
-  for (const ReportStep& step : report.steps) {
-    const bool fails_in_replay = step.verdict() == Verdict::kFail && !samples.empty() &&
-                                 samples.back().entry == step.check.index;
-    if (fails_in_replay) actual = &samples.back().state;
-  }
-  const std::vector<ShownEntry> entries = ShowEntries(object, plan, hand, report, actual);
+  const std::vector<ShownEntry> entries = ShowEntries(object, plan, hand, report, samples);
   ViewerScene scene;
   scene.object_name = report.object_file;
   scene.diameter_m = report.scale * object.diameter();
@@ -245,14 +216,12 @@ ViewerScene MakeViewerScene(const object::Object& object, const plan::Plan& plan
   AddBody(body, frame, scene);
   const std::vector<FingerIndex> fingers = FingersOf(entries);
   for (const FingerIndex finger : fingers) scene.fingers.push_back({finger, NameOf(hand, finger)});
-  ReplayTimeline timeline =
-      hand != nullptr ? MakeHandTimeline(entries, fingers, *hand, samples)
-                      : MakePointTimeline(entries, fingers, scene.centroid, scene.diameter_m);
+  ReplayTimeline timeline = MakeTimeline(object, report, entries, fingers, hand, samples);
   scene.samples = std::move(timeline.samples);
   scene.simulated_time = timeline.simulated_time;
   if (hand != nullptr) {
     AddHand(*hand, scene);
-    AddTurns(*hand, static_cast<int>(plan.steps.size()) + 1, scene);
+    AddTurns(*hand, scene);
   }
   AddSteps(plan, entries, timeline.ends, hand, scene);
   scene.to_eye = DirectionToEye(body, frame, entries, options, scene.planar);

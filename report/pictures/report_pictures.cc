@@ -12,6 +12,9 @@
 #include "render/frames/replay_animation.h"
 #include "render/picture/caption.h"
 #include "report/failure.h"
+#include "report/pictures/animation_frames.h"
+#include "report/pictures/object_progress.h"
+#include "report/pictures/replay_timeline.h"
 
 namespace regrasp::report {
 
@@ -29,15 +32,13 @@ constexpr int kMostSkipped = 24;
 
 bool Failed(const ReportStep& step) { return step.verdict() == Verdict::kFail; }
 
-std::string Caption(const plan::Plan& plan, const ReportStep& step) {
-  const std::string caption = render::FrameCaption(plan, step.check.index);
-  return Failed(step) ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
-}
-
-render::OverviewLabel MakeLabel(const ReportStep& step) {
+/// @param progress  motion of the object up to the end of the entry; may be empty.
+render::OverviewLabel MakeLabel(const ReportStep& step, const std::string& progress = "") {
   const bool failed = Failed(step);
   const std::string verdict(failed ? plan::ReasonName(step.reason()) : VerdictName(step.verdict()));
-  return {std::to_string(step.check.index) + "  " + step.check.kind, verdict,
+  return {std::to_string(step.check.index) + "  " + step.check.kind +
+              (progress.empty() ? "" : " · " + progress),
+          verdict,
           failed         ? kBad
           : step.skipped ? kSkipped
                          : kGood,
@@ -71,23 +72,20 @@ ShownEntry ShowFailure(const object::Object& object, const plan::Plan& plan, con
 ShownEntry ShowSound(const ReportStep& step, const HandPicture* hand) {
   ShownEntry shown{&step, step.replay->snapshot};
   plan::Fault none;
-  if (hand != nullptr) hand->Place(step.check.index, shown.snapshot, none);
+  if (hand == nullptr) return shown;
+  hand->MarkSwitch(step.check.index, shown.snapshot);
+  hand->Place(step.check.index, shown.snapshot, none);
   return shown;
 }
 
-/// Return the states of a hand during each entry; none for a failed entry.
-std::vector<std::vector<plan::Snapshot>> ShowMotions(const HandPicture& hand,
-                                                     const Report& report) {
-  std::vector<std::vector<plan::Snapshot>> motions;
-  for (std::size_t i = 0; i < report.steps.size(); ++i) {
-    const ReportStep& step = report.steps[i];
-    if (step.skipped) break;
-    motions.emplace_back();
-    if (i == 0 || Failed(step)) continue;
-    motions.back() =
-        hand.Between(step.check.index, report.steps[i - 1].replay->snapshot, step.replay->snapshot);
-  }
-  return motions;
+/// Return the last recorded state if it belongs to the failed entry; null otherwise.
+const plan::HandState* StateAtFailure(const Report& report,
+                                      const std::vector<HandSample>& samples) {
+  if (samples.empty()) return nullptr;
+  const bool fails = std::ranges::any_of(report.steps, [&](const ReportStep& step) {
+    return Failed(step) && step.check.index == samples.back().entry;
+  });
+  return fails ? &samples.back().state : nullptr;
 }
 
 /// Add grey cells for the steps after a failure. The last cell represents all further steps.
@@ -102,6 +100,30 @@ void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
   }
 }
 
+/// Return the options of frames with the hand and the names of its fingers.
+render::FrameOptions WithHand(const DrawingOptions& options) {
+  render::FrameOptions frame = options.frame;
+  if (options.hand == nullptr) return frame;
+  frame.hand = options.hand->view();
+  frame.finger_names = options.hand->FingerNames();
+  return frame;
+}
+
+/// Return the motion of the object up to the end of each entry; empty texts without a hand.
+std::vector<std::string> ProgressOf(const HandPicture* hand, const std::vector<ShownEntry>& shown) {
+  std::vector<std::string> texts(shown.size());
+  if (hand == nullptr) return texts;
+  ObjectProgress progress(hand->PlannedPoses());
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (const plan::HandState& state : hand->StatesAlong(shown[i].step->check.index)) {
+      if (!shown[i].marks) progress.Follow(hand->X_WP() * state.pose);
+    }
+    if (shown[i].marks) progress.Follow(shown[i].snapshot.X_WO);
+    texts[i] = progress.Text();
+  }
+  return texts;
+}
+
 /// Make the renderer of the frames and the animation of a report, which share a camera.
 render::FrameRenderer MakeRenderer(const object::Object& object, const Report& report,
                                    const std::vector<ShownEntry>& shown,
@@ -111,6 +133,13 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
     snapshots.push_back(entry.snapshot);
     if (!entry.marks) continue;
     options.also_seen = render::ExtentOf(*entry.marks, report.scale * object.diameter());
+    for (const auto& dimension : entry.marks->dimensions) {
+      const Eigen::Vector3d along = dimension.to - dimension.from;
+      if (along.norm() > 0) options.shown_lengths.push_back(along.normalized());
+    }
+    for (const auto& normal : entry.marks->normals) {
+      options.shown_lengths.push_back(normal.along.normalized());
+    }
   }
   if (object.dimension() == 2 && report.settings) {
     options.body.thickness = report.settings->thickness_m / report.settings->diameter_m;
@@ -124,7 +153,8 @@ render::FrameRenderer MakeRenderer(const object::Object& object, const Report& r
 
 std::vector<ShownEntry> ShowEntries(const object::Object& object, const plan::Plan& plan,
                                     const HandPicture* hand, const Report& report,
-                                    const plan::HandState* actual) {
+                                    const std::vector<HandSample>& samples) {
+  const plan::HandState* actual = StateAtFailure(report, samples);
   std::vector<ShownEntry> shown;
   for (const ReportStep& step : report.steps) {
     if (step.skipped) continue;
@@ -132,6 +162,12 @@ std::vector<ShownEntry> ShowEntries(const object::Object& object, const plan::Pl
                                  : ShowSound(step, hand));
   }
   return shown;
+}
+
+std::string EntryCaption(const plan::Plan& plan, const ReportStep& step,
+                         std::span<const std::string> finger_names) {
+  const std::string caption = render::FrameCaption(plan, step.check.index, finger_names);
+  return Failed(step) ? caption + " — " + std::string(plan::ReasonName(step.reason())) : caption;
 }
 
 int CountFrames(const Report& report) {
@@ -144,9 +180,9 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
   const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report);
   const auto count = static_cast<int>(shown.size());
   const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
-  render::FrameOptions frame = options.frame;
-  if (options.hand != nullptr) frame.hand = options.hand->view();
+  const render::FrameOptions frame = WithHand(options);
   const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
+  const std::vector<std::string> progress = ProgressOf(options.hand, shown);
   render::OverviewImage sheet(count + skipped, renderer.width(), renderer.height(),
                               options.sheet_width, MakeHeading(report),
                               render::GroundOf(options.frame.background));
@@ -154,12 +190,15 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
   for (const auto& [step, snapshot, marks] : shown) {
     const int view = static_cast<int>(tasks.size());
     const char* note = renderer.HasOwnView(view) ? kOwnView : "";
-    tasks.push_back({&snapshot, Caption(plan, *step) + note, marks ? &*marks : nullptr, view});
+    tasks.push_back({&snapshot,
+                     {EntryCaption(plan, *step, frame.finger_names) + note, progress[tasks.size()]},
+                     marks ? &*marks : nullptr,
+                     view});
   }
   const auto draw = [&](int index, const render::Image& image) {
     const ReportStep& step = *shown[index].step;
     take({step.check.index, image, renderer.HasOwnView(index)});
-    sheet.Add(image, MakeLabel(step));
+    sheet.Add(image, MakeLabel(step, progress[index]));
     options.on_picture(index + 1, count);
   };
   render::RenderInOrder(renderer, tasks, options.workers, draw);
@@ -168,38 +207,29 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
 }
 
 MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
-                             const DrawingOptions& options,
-                             const std::vector<plan::Snapshot>& samples,
+                             const DrawingOptions& options, const std::vector<HandSample>& samples,
                              const std::vector<render::AnimationFormat>& formats,
                              const Report& report) {
-  const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report);
-  std::vector<std::vector<plan::Snapshot>> motions;
-  if (options.hand != nullptr) motions = ShowMotions(*options.hand, report);
-  std::vector<render::AnimationPause> rests;
-  for (const auto& [step, snapshot, marks] : shown) {
-    rests.push_back(
-        {snapshot, render::FrameCaption(plan, step->check.index), Caption(plan, *step), marks});
-  }
-  const std::vector<render::AnimationFrame> pictures =
-      options.hand != nullptr
-          ? render::JoinAnimation(motions, rests)
-          : render::CutAnimation(samples, rests, report.scale * object.diameter());
-  render::FrameOptions frame = options.frame;
-  if (options.hand != nullptr) frame.hand = options.hand->view();
-  for (const auto& motion : motions) {
-    for (const plan::Snapshot& snapshot : motion) {
-      const std::vector<Eigen::Vector3d> points = options.hand->Reached(snapshot);
-      frame.reached.insert(frame.reached.end(), points.begin(), points.end());
-    }
-  }
-  frame.gaps = render::GapView::kShown;
+  const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report, samples);
+  const std::vector<FingerIndex> fingers = FingersOf(shown);
+  const ReplayTimeline timeline =
+      MakeTimeline(object, report, shown, fingers, options.hand, samples);
+  const AnimationFrames moving = MakeAnimationFrames(plan, shown, timeline, fingers, options.hand,
+                                                     report.scale * object.diameter());
+  render::FrameOptions frame = WithHand(options);
+  frame.animated = true;
   if (frame.background == render::Background::kTransparent) {
     frame.background = render::Background::kWhite;
   }
+  for (const plan::Snapshot& snapshot : moving.snapshots) {
+    for (const plan::FingerState& finger : snapshot.fingers) {
+      if (finger.role == plan::FingerRole::kFree) frame.reached.push_back(finger.contact_W);
+    }
+  }
   const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
-  const auto count = static_cast<int>(pictures.size());
+  const auto count = static_cast<int>(moving.frames.size());
   std::vector<std::string> bytes =
-      render::RenderAnimation(renderer, pictures, formats, options.workers,
+      render::RenderAnimation(renderer, moving.frames, formats, options.workers,
                               [&](int done) { options.on_picture(done, count); });
   return {std::move(bytes), renderer.width(), renderer.height()};
 }

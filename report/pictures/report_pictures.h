@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,18 @@ struct ShownEntry {
 
 /// Return the displayed states of all entries up to the failed one, which refer to the report.
 /// The failed entry has the replayed state, or the planned state if it was not replayed.
-/// @param hand    hand of the plan; null: fingers without a hand.
-/// @param actual  replayed state of the hand at a failure; null: the planned state.
+/// @param hand     hand of the plan; null: fingers without a hand.
+/// @param samples  recorded states of the hand. If they end in the failed entry, it has the last
+///                 one instead of its planned state.
 [[nodiscard]] std::vector<ShownEntry> ShowEntries(const object::Object& object,
                                                   const plan::Plan& plan, const HandPicture* hand,
                                                   const Report& report,
-                                                  const plan::HandState* actual = nullptr);
+                                                  const std::vector<HandSample>& samples = {});
+
+/// Return the caption of an entry's frame, with the reason if it failed.
+/// @param finger_names  names of fingers by index; other fingers have their number.
+[[nodiscard]] std::string EntryCaption(const plan::Plan& plan, const ReportStep& step,
+                                       std::span<const std::string> finger_names);
 
 /// Return the number of entries that have a frame: all up to the failed entry.
 [[nodiscard]] int CountFrames(const Report& report);
@@ -71,14 +78,15 @@ struct MovingPictures {
   int height = 0;
 };
 
-/// Draw the replay as an animation, with the camera of the frames.
-/// It ends with the frame of the failed step.
+/// Draw the replay as an animation, with the view direction of the frames.
+///
+/// Its motion is that of the 3-D replay (MakeTimeline). It ends with the frame of the failed step.
 /// @param options  options; the size is that of the animation.
-/// @param samples  states during the replay, ascending in time.
+/// @param samples  recorded states of the hand, ascending in time; may be empty.
 /// @throws EnvironmentError  if there is no rendering context.
 [[nodiscard]] MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& plan,
                                            const DrawingOptions& options,
-                                           const std::vector<plan::Snapshot>& samples,
+                                           const std::vector<HandSample>& samples,
                                            const std::vector<render::AnimationFormat>& formats,
                                            const Report& report);
 

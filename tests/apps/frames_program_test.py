@@ -27,7 +27,8 @@ class Frames(ProgramCase):
         usual = self.draw(out="usual")
         self.assertEqual(self.draw(out="again"), usual)
         for options in (["--view", "30,20"], ["--view", "zoom=1.5"], ["--view", "orthographic"],
-                        ["--edges", "none"], ["--finger-radius", "0.004"]):
+                        ["--edges", "none"], ["--finger-radius", "0.004"],
+                        ["--frames", "all,object=glass"]):
             with self.subTest(options=options):
                 frames = self.draw(*options)
                 self.assertEqual(sorted(frames), sorted(usual))

@@ -662,10 +662,11 @@ class Gait(ProgramCase):
         done, _ = self.validate(plan, *small, "--hand", self.hand("ring4"), "--video", "with.webp")
         self.assertEqual(done.returncode, 0, done.stderr)
         durations = webp_durations(self.read("with.webp"))
-        moving = [ms for ms in durations if ms < 900]
-        # A rotation of 200° in frames of 3°, and fingers that are placed and released.
+        moving = [ms for ms in durations if ms < 240]
+        # A rotation of 200°, and fingers that are placed and released, with a pause after each step.
         self.assertGreater(len(moving), 80)
-        self.assertEqual(len(durations) - len(moving), len(plan["steps"]) + 1)
+        self.assertGreaterEqual(len(durations) - len(moving), len(plan["steps"]) + 1)
+        self.assertLess(sum(durations), 30000)
         # Negative control: plans without intermediate states give fewer frames.
         for step in plan["steps"]:
             for path in (step,) if step["kind"] == "move" else (step["motion"],):

@@ -140,6 +140,50 @@ TEST(BodyShapeTest, LeavesOutScratchesAndKeepsLoops) {
   EXPECT_EQ(flat.edges.size(), 12U);
 }
 
+/// Return a polyhedron around a sphere with a ridge: its equator is a sharp edge.
+object::Polyhedron MakeLens(int sides, double height) {
+  object::PolygonSoup soup;
+  const auto ring = [&](double radius, double z, double offset) {
+    for (int i = 0; i < sides; ++i) {
+      const double turn = 2 * M_PI * (i + offset) / sides;
+      soup.vertices.emplace_back(radius * std::cos(turn), radius * std::sin(turn), z);
+    }
+  };
+  constexpr int kRings = 8;
+  for (int k = -kRings; k <= kRings; ++k) {
+    const double share = static_cast<double>(std::abs(k)) / (kRings + 1);
+    // The profile is a circular arc that meets its mirror image at an angle.
+    ring(1 - share * share * 0.6 - share * 0.35, height * k / kRings, 0.5 * (k + kRings));
+  }
+  const int low = static_cast<int>(soup.vertices.size());
+  soup.vertices.emplace_back(0, 0, -height * 1.05);
+  soup.vertices.emplace_back(0, 0, height * 1.05);
+  for (int k = 0; k < 2 * kRings; ++k) {
+    for (int i = 0; i < sides; ++i) {
+      const int a = k * sides + i, b = k * sides + (i + 1) % sides;
+      // Rings are rotated by half a side relative to each other.
+      soup.facets.push_back({a, b, a + sides});
+      soup.facets.push_back({b, b + sides, a + sides});
+    }
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides, top = 2 * kRings * sides;
+    soup.facets.push_back({low, next, i});
+    soup.facets.push_back({low + 1, top + i, top + next});
+  }
+  return object::Polyhedron::FromSoup(soup, "lens");
+}
+
+TEST(BodyShapeTest, AScanHasNoCreasesButAnOutline) {
+  const object::Polyhedron lens = MakeLens(24, 0.3);
+  const BodyShape shape = MakeBodyShape(lens);
+  EXPECT_TRUE(shape.edges.empty()) << "it bends at every edge, and sharply only at its equator";
+  EXPECT_FALSE(FindOutline(shape, [](const Vector3d&) { return Vector3d(1, 0, 0); }).empty());
+  EXPECT_GT(MakeBodyShape(lens, {.edges = EdgeStyle::kAll}).edges.size(), 24U);
+  // A cylinder with planar ends is not a scan.
+  EXPECT_FALSE(MakeBodyShape(MakeRoundPrism(64)).edges.empty());
+}
+
 TEST(BodyShapeTest, TheOutlineOfARoundObjectSeparatesFrontAndBack) {
   const BodyShape body = MakeBodyShape(MakeRoundPrism(64), {.crease_angle = Radians(95)});
   EXPECT_TRUE(body.edges.empty());

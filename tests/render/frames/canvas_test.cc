@@ -76,8 +76,65 @@ Color ThroughVeil(double height, std::vector<Window> windows = {}) {
   const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
   Drawing drawing;
   drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
-  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {{0}}, std::move(windows)};
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {}, {{0}}, std::move(windows)};
   return CentreOf(DrawOnce(meshes, drawing));
+}
+
+/// Return the colour at the centre of a blue solid at z = 0.5 and a red shape at `height`.
+Color WithSolid(double height, double xray) {
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
+  Drawing drawing;
+  drawing.shapes = {{MeshInstance{1}, Color{255, 0, 0}}};
+  drawing.solid = Solid{{{MeshInstance{0}, Color{0, 0, 255}}}, xray};
+  return CentreOf(DrawOnce(meshes, drawing));
+}
+
+TEST(CanvasTest, HiddenShapesShineThroughASolidFaintly) {
+  const Color front = WithSolid(0.8, 0.25);
+  EXPECT_GT(front.r, 150);
+  EXPECT_EQ(front.b, 0);
+  const Color behind = WithSolid(0.2, 0.25);
+  EXPECT_NEAR(behind.r, 0.25 * front.r, 2);
+  EXPECT_NEAR(behind.b, 0.75 * WithSolid(0.2, 0).b, 2);
+  EXPECT_EQ(WithSolid(0.2, 0).r, 0) << "opaque";
+}
+
+/// Return the colour at the centre of a red veil at `height`, with a solid at z = 0.5.
+Color VeilAndSolid(double height) {
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.9, height)};
+  Drawing drawing;
+  drawing.solid = Solid{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5};
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {}, {}, {}};
+  return CentreOf(DrawOnce(meshes, drawing));
+}
+
+TEST(CanvasTest, ASolidHidesAVeilButItsRims) {
+  const Color over = VeilAndSolid(0.8);
+  EXPECT_GT(over.r, 150);
+  EXPECT_GT(over.b, 20);
+  const Color under = VeilAndSolid(0.2);
+  EXPECT_EQ(under.r, 0);
+  const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.4, 0.1), Square(0.9, 0)};
+  Drawing drawing;
+  drawing.solid = Solid{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5};
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}},
+                      {{MeshInstance{2}, Color{0, 255, 0}, 0.8}},
+                      {},
+                      {}};
+  const Image image = DrawOnce(meshes, drawing);
+  EXPECT_EQ(CentreOf(image).g, 0) << "behind the veil";
+  EXPECT_GT(image.rgb[3 * (std::size_t{kSide / 2} * kSide + 8) + 1], 30) << "the rim";
+}
+
+TEST(CanvasTest, AMeshCanHaveItsOwnColours) {
+  ShadedMesh square = Square(0.9, 0.5);
+  const Color green = {0, 255, 0};
+  square.colors.assign(square.triangles.size(), {green, green, green});
+  Drawing drawing;
+  drawing.shapes = {{MeshInstance{0}, kRed}};
+  const Color centre = CentreOf(DrawOnce({square}, drawing));
+  EXPECT_GT(centre.g, 150);
+  EXPECT_EQ(centre.r, 0);
 }
 
 TEST(CanvasTest, AVeilIsBehindItsCoversAndInFrontOfOtherShapes) {
@@ -94,7 +151,7 @@ TEST(CanvasTest, BesideAVeilALayerIsAsItIsWithoutOne) {
   Drawing drawing;
   drawing.layers = {{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5}};
   const Image without = DrawOnce(meshes, drawing);
-  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {{0}}, {}};
+  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}}, {}, {{0}}, {}};
   const Image with = DrawOnce(meshes, drawing);
   int changed = 0;
   for (int y = 0; y < kSide; ++y) {

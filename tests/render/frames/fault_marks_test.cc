@@ -135,7 +135,7 @@ TEST(FaultScene, TheFirstRequiredConeHasAText) {
 int CountRed(const plan::Snapshot& snapshot, const FaultMarks* marks) {
   const object::Polyhedron cube = MakeCube();
   FrameRenderer renderer(cube, 1, Radians(20), {snapshot}, {320, 240, 1});
-  const Image image = renderer.Render(snapshot, "", marks);
+  const Image image = renderer.Render(snapshot, {}, marks);
   int count = 0;
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
     const unsigned char* p = &image.rgb[i];
@@ -250,7 +250,7 @@ TEST(FaultScene, NumbersStandOverTheMarks) {
     };
     const std::vector<Obstacle> marks = numbers_first ? std::vector<Obstacle>() : draw_marks();
     for (const CairoImage* page : {&alone, &all}) {
-      DrawNumbers(*page, camera, fingers, marks, style);
+      DrawNumbers(*page, camera, fingers, {}, marks, style);
     }
     if (numbers_first) std::ignore = draw_marks();
     return CountCovered(alone.ToImage(), all.ToImage());

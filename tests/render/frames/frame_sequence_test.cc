@@ -40,7 +40,7 @@ TEST_F(FrameSequenceTest, FramesComeInOrderAndDoNotDependOnTheNumberOfWorkers) {
   std::set<std::vector<unsigned char>> different;
   std::vector<Image> expected;
   for (const FrameTask& task : tasks_) {
-    expected.push_back(alone.Render(*task.snapshot, task.caption));
+    expected.push_back(alone.Render(*task.snapshot, task.text));
     different.insert(expected.back().rgb);
   }
   EXPECT_EQ(different.size(), tasks_.size());

@@ -24,7 +24,7 @@ FrameOptions Medium() { return {640, 480, 1}; }
 Image Draw(const object::Object& object, const std::vector<plan::Snapshot>& snapshots,
            std::size_t index, const FrameOptions& options, const std::string& caption = "") {
   FrameRenderer renderer(object, 1, kFrictionAngle, snapshots, options);
-  return renderer.Render(snapshots[index], caption);
+  return renderer.Render(snapshots[index], {caption});
 }
 
 Color PixelAt(const Image& image, int x, int y) {
@@ -165,9 +165,14 @@ TEST(FrameTest, ATransparentFrameEqualsTheWhiteOneOnWhite) {
   ASSERT_EQ(clear.alpha.size(), std::size_t{640} * 480);
   EXPECT_EQ(clear.alpha[0], 0);
   EXPECT_EQ(std::ranges::count_if(clear.alpha, [](int a) { return a == 0; }) > 640 * 480 / 3, true);
-  // Fingertips and text are opaque, the object is not.
-  EXPECT_GT(std::ranges::count(clear.alpha, 255), 1000);
-  EXPECT_GT(std::ranges::count_if(clear.alpha, [](int a) { return a > 60 && a < 200; }), 5000);
+  // An opaque object hides the background, a glass one does not.
+  const auto half = [](const Image& image) {
+    return std::ranges::count_if(image.alpha, [](int a) { return a > 60 && a < 200; });
+  };
+  EXPECT_GT(std::ranges::count(clear.alpha, 255), 20000);
+  EXPECT_LT(half(clear), 5000);
+  options.glass = true;
+  EXPECT_GT(half(Draw(cube, MakeCubeSequence(), 1, options, "caption")), 20000);
 }
 
 TEST(FrameTest, RejectsSizesOutOfRange) {
@@ -213,28 +218,27 @@ TEST(FrameTest, ACopyDrawsTheSameWithTheSameCamera) {
   FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Small(2));
   FrameRenderer copy(renderer);
   for (const plan::Snapshot& snapshot : snapshots) {
-    EXPECT_EQ(CountDifferent(copy.Render(snapshot, "a"), renderer.Render(snapshot, "a")), 0);
+    EXPECT_EQ(CountDifferent(copy.Render(snapshot, {"a"}), renderer.Render(snapshot, {"a"})), 0);
   }
 }
 
-TEST(FrameTest, DisplayedGapsDoNotChangeTheCamera) {
+TEST(FrameTest, FreeFingersOfAnAnimationDoNotChangeTheCamera) {
   const object::Polyhedron cube = MakeCube(0.03);
   std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
-  for (plan::Snapshot& snapshot : snapshots) {
-    snapshot.fingertip_radius_m = 1e-3;
-    for (plan::FingerState& finger : snapshot.fingers) {
-      const bool away = finger.role == plan::FingerRole::kReleased;
-      finger.tip_W = finger.contact_W - (away ? 0.01 : 1e-3) * finger.normal_W;
-    }
-  }
-  FrameOptions shown = Medium();
-  shown.gaps = GapView::kShown;
-  const auto count = [&](std::size_t index) {
-    return CountDifferent(Draw(cube, snapshots, index, Medium()),
-                          Draw(cube, snapshots, index, shown));
+  const auto different = [&] {
+    FrameOptions animated = Medium();
+    animated.animated = true;
+    return CountDifferent(Draw(cube, snapshots, 0, Medium()), Draw(cube, snapshots, 0, animated));
   };
-  EXPECT_EQ(count(0), 0);
-  EXPECT_GT(count(1), 100) << "a released finger stands away";
+  EXPECT_EQ(different(), 0);
+  plan::FingerState finger = snapshots[0].fingers[0];
+  finger.finger = FingerIndex(6);
+  finger.role = plan::FingerRole::kFree;
+  finger.contact_W -= 0.01 * finger.normal_W;
+  snapshots[0].fingers.push_back(finger);
+  const int bytes = 3 * Medium().width * Medium().height;
+  EXPECT_GT(different(), 100);
+  EXPECT_LT(different(), bytes / 20);
 }
 
 TEST(FrameTest, ChangesWithTheObjectPoseAndTheRoleOfAFinger) {
@@ -251,12 +255,60 @@ TEST(FrameTest, ChangesWithTheObjectPoseAndTheRoleOfAFinger) {
   EXPECT_GT(CountDifferent(still, renderer.Render(held)), 100);
 }
 
+TEST(FrameTest, WritesTheProgressAtTheTopRight) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Medium());
+  const Image without = renderer.Render(snapshots[0]);
+  const Image with = renderer.Render(snapshots[0], {"", "36.7° of 90°"});
+  int inside = 0, outside = 0;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      const bool differs = PixelAt(with, x, y).g != PixelAt(without, x, y).g;
+      (x > with.width / 2 && y < with.height / 8 ? inside : outside) += differs ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(FrameTest, ALengthTowardsTheEyeGetsItsOwnView) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = {MakeCubeSequence()[0], MakeCubeSequence()[0]};
+  int with_own_view = 0;
+  for (int axis = 0; axis < 12; ++axis) {
+    const double turn = axis * M_PI / 6;
+    FrameOptions options = Small();
+    options.shown_lengths = {{std::cos(turn), std::sin(turn), 0}};
+    const FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, options);
+    EXPECT_FALSE(renderer.HasOwnView(0));
+    with_own_view += renderer.HasOwnView(1) ? 1 : 0;
+    options.view.direction = ViewDirection{0, 0};
+    const FrameRenderer given(cube, 1, kFrictionAngle, snapshots, options);
+    EXPECT_FALSE(given.HasOwnView(1));
+  }
+  EXPECT_GE(with_own_view, 2);
+  EXPECT_LE(with_own_view, 6);
+}
+
+TEST(FrameTest, FingersHaveTheirNamesIfTheyHaveSome) {
+  const object::Polyhedron cube = MakeCube(0.03);
+  const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
+  FrameOptions named = Medium();
+  named.finger_names = {"", "index"};
+  const Image image = Draw(cube, snapshots, 0, named);
+  const Image numbers = Draw(cube, snapshots, 0, Medium());
+  EXPECT_GT(CountDifferent(image, numbers), 100);
+  named.finger_names[1] = "a_name_that_is_too_long";
+  EXPECT_EQ(CountDifferent(Draw(cube, snapshots, 0, named), numbers), 0);
+}
+
 TEST(FrameTest, WritesTheCaptionAtTheBottomLeft) {
   const object::Polyhedron cube = MakeCube(0.03);
   const std::vector<plan::Snapshot> snapshots = MakeCubeSequence();
   FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, Medium());
   const Image without = renderer.Render(snapshots[0]);
-  const Image with = renderer.Render(snapshots[0], "step 1/2");
+  const Image with = renderer.Render(snapshots[0], {"step 1/2"});
   int left = 0;
   int elsewhere = 0;
   for (int y = 0; y < with.height; ++y) {
@@ -364,7 +416,7 @@ TEST(FrameTest, EverythingDrawnIsInsideTheFrame) {
         options.view.zoom = zoom;
         FrameRenderer renderer(object, 1, kFrictionAngle, snapshots, options);
         for (const plan::Snapshot& snapshot : snapshots) {
-          const int at_border = CountAtBorder(renderer.Render(snapshot, "caption"));
+          const int at_border = CountAtBorder(renderer.Render(snapshot, {"caption"}));
           if (zoom == 1) {
             EXPECT_EQ(at_border, 0);
             ++drawn;
@@ -408,7 +460,7 @@ TEST(FrameTest, AFingerHiddenInOneViewHasAnotherViewOfTheSameSize) {
     const int index = static_cast<int>(i);
     if (!renderer.HasOwnView(index)) continue;
     const Image common = renderer.Render(snapshots[i]);
-    const Image image = renderer.Render(snapshots[i], "", nullptr, index);
+    const Image image = renderer.Render(snapshots[i], {}, nullptr, index);
     EXPECT_EQ(image.width, common.width);
     EXPECT_EQ(image.height, common.height);
     EXPECT_EQ(CountAtBorder(image), 0);
@@ -452,7 +504,7 @@ TEST(FrameTest, FaultMarksAreInsideTheFrame) {
   options.view.direction = ViewDirection{Radians(60), Radians(20)};
   const auto at_border = [&] {
     FrameRenderer renderer(cube, 1, kFrictionAngle, snapshots, options);
-    return CountAtBorder(renderer.Render(snapshots[0], "", &marks));
+    return CountAtBorder(renderer.Render(snapshots[0], {}, &marks));
   };
   EXPECT_GT(at_border(), 0);
   options.also_seen = ExtentOf(marks, cube.diameter());

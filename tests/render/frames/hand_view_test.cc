@@ -39,7 +39,7 @@ std::vector<Color> ColorsOf(const plan::Snapshot& snapshot,
                             const std::vector<plan::HandLink>& at_fault = {}) {
   std::vector<Color> colors;
   const std::vector<Shape> shapes = HandFigure(Hand(), Frame()).Shapes(snapshot, at_fault, 0);
-  for (std::size_t i = 1; i < shapes.size(); i += 2) colors.push_back(shapes[i].color);
+  for (const Shape& shape : shapes) colors.push_back(shape.color);
   return colors;
 }
 
@@ -135,8 +135,8 @@ TEST(HandFrames, AnInHandMotionShowsTheFormerPose) {
   // If a fault has its own ghost, this one is omitted.
   FaultMarks marks{.heading = "", .fingers = {}};
   marks.X_WO_before = Isometry3d::Identity();
-  EXPECT_EQ(renderer.Render(snapshots[0], "", &marks).rgb,
-            renderer.Render(snapshots[1], "", &marks).rgb);
+  EXPECT_EQ(renderer.Render(snapshots[0], {}, &marks).rgb,
+            renderer.Render(snapshots[1], {}, &marks).rgb);
 }
 
 }  // namespace hand_view_test

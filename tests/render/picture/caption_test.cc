@@ -60,6 +60,19 @@ TEST(CaptionTest, StatesTheRotationOrTheTranslationOfTheObject) {
   EXPECT_EQ(CaptionOfMove(1e-9, 1e-9), "step 1/1 · move: free fingers");
 }
 
+TEST(CaptionTest, FingersHaveNamesOrNumbers) {
+  plan::Switch change;
+  change.place.resize(1);
+  change.place[0].finger = FingerIndex(1);
+  change.release = {FingerIndex(2)};
+  plan::Plan plan;
+  plan.steps = {change};
+  const std::vector<std::string> names = {"thumb", "index"};
+  EXPECT_EQ(FrameCaption(plan, plan::EntryIndex(1), names),
+            "step 1/1 · switch: place index, release 2");
+  EXPECT_EQ(EntryTitle(plan, plan::EntryIndex(1)), "switch: place 1, release 2");
+}
+
 }  // namespace caption_test
 
 namespace label_layout_test {

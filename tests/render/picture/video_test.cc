@@ -149,6 +149,10 @@ int DistanceAt(const Image& image, int x, int y, Color color) {
       {std::abs(rgb[0] - color.r), std::abs(rgb[1] - color.g), std::abs(rgb[2] - color.b)});
 }
 
+int RoundedMs(int frames) {
+  return static_cast<int>(std::lround(1000.0 * frames / kFramesPerSecond));
+}
+
 std::vector<int> Begins(const std::vector<Shown>& shown) {
   std::vector<int> begins;
   for (const Shown& picture : shown) begins.push_back(picture.begin_ms);
@@ -157,14 +161,14 @@ std::vector<int> Begins(const std::vector<Shown>& shown) {
 
 TEST(VideoTest, AnMp4HasAFramePerTickAndShowsEveryImageForItsDuration) {
   const auto video = MakeMp4(64, 48);
-  video->Add(MakeFlat(64, 48, kTeal), 2 * kTick_ms);
-  video->Add(MakeFlat(64, 48, kRed), 10 * kTick_ms);
+  video->Add(MakeFlat(64, 48, kTeal), 2);
+  video->Add(MakeFlat(64, 48, kRed), 10);
   const std::vector<Shown> shown = Decode(video->Finish());
   ASSERT_EQ(shown.size(), 12u);
   std::vector<int> expected(12);
-  for (int i = 0; i < 12; ++i) expected[i] = i * kTick_ms;
+  for (int i = 0; i < 12; ++i) expected[i] = RoundedMs(i);
   EXPECT_EQ(Begins(shown), expected);
-  EXPECT_EQ(shown.back().duration_ms, kTick_ms);
+  EXPECT_EQ(shown.back().duration_ms, RoundedMs(1));
   for (int i = 0; i < 12; ++i) {
     EXPECT_LE(DistanceAt(shown[i].image, 30, 20, i < 2 ? kTeal : kRed), 4) << i;
   }
@@ -185,8 +189,8 @@ std::vector<std::string> Boxes(const std::string& bytes) {
 
 TEST(VideoTest, TheIndexOfAnMp4PrecedesItsFrames) {
   const auto video = MakeMp4(64, 48);
-  video->Add(MakeFlat(64, 48, kTeal), 2 * kTick_ms);
-  video->Add(MakeLine(64, 48, 20), 3 * kTick_ms);
+  video->Add(MakeFlat(64, 48, kTeal), 2);
+  video->Add(MakeLine(64, 48, 20), 3);
   const std::string bytes = video->Finish();
   const std::vector<std::string> boxes = Boxes(bytes);
   const auto place = [&boxes](const char* type) { return std::ranges::find(boxes, type); };
@@ -202,7 +206,7 @@ TEST(VideoTest, TheIndexOfAnMp4PrecedesItsFrames) {
 
 TEST(VideoTest, SidesOfAnMp4AreEven) {
   const auto video = MakeMp4(49, 51);
-  video->Add(MakeLine(49, 51, 47), kTick_ms);
+  video->Add(MakeLine(49, 51, 47), 1);
   const std::vector<Shown> shown = Decode(video->Finish());
   ASSERT_EQ(shown.size(), 1u);
   const Image& image = shown[0].image;
@@ -217,7 +221,7 @@ TEST(VideoTest, AGifHasItsColoursExactlyAndShowsEveryImageForItsTime) {
   const std::vector<Image> images = {MakeLine(61, 47, 5), MakeLine(61, 47, 40),
                                      MakeFlat(61, 47, kTeal)};
   const auto video = MakeGif(61, 47, {{255, 255, 255}, kRed, kTeal});
-  const std::vector<int> durations = {kTick_ms, 3 * kTick_ms, 18 * kTick_ms};
+  const std::vector<int> durations = {3, 6, 15};
   for (int i = 0; i < 3; ++i) video->Add(images[i], durations[i]);
   const std::string bytes = video->Finish();
   EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos) << "it repeats";
@@ -225,14 +229,14 @@ TEST(VideoTest, AGifHasItsColoursExactlyAndShowsEveryImageForItsTime) {
   ASSERT_EQ(shown.size(), 3u);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(shown[i].image.rgb, images[i].rgb) << i;
-    EXPECT_EQ(shown[i].duration_ms, durations[i]) << i;
+    EXPECT_EQ(shown[i].duration_ms, RoundedMs(durations[i])) << i;
   }
-  EXPECT_EQ(Begins(shown), (std::vector<int>{0, 50, 200}));
+  EXPECT_EQ(Begins(shown), (std::vector<int>{0, 100, 300}));
 }
 
 TEST(VideoTest, AGifHasTheNearestOfItsColours) {
   const auto video = MakeGif(48, 48, {{255, 255, 255}, kRed});
-  video->Add(MakeFlat(48, 48, {230, 40, 40}), kTick_ms);
+  video->Add(MakeFlat(48, 48, {230, 40, 40}), 1);
   const std::vector<Shown> shown = Decode(video->Finish());
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_EQ(DistanceAt(shown[0].image, 10, 10, kRed), 0);

@@ -1,0 +1,170 @@
+#include "render/frames/shape_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <variant>
+
+namespace regrasp::render {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Limits of the depth range, relative to the distance from camera to origin.
+constexpr double kNearFactor = 0.1;
+constexpr double kFarFactor = 4;
+
+/// Share of a surface's colour in shade, and the additional share at normal incidence of light.
+constexpr float kAmbient = 0.68F;
+constexpr float kDiffuse = 0.40F;
+/// Direction towards the light, in camera axes.
+constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
+
+void Append(const std::vector<std::array<Vector3d, 3>>& corners, std::vector<float>& out) {
+  out.reserve(9 * corners.size());
+  for (const auto& triangle : corners) {
+    for (const Vector3d& p : triangle) {
+      for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
+    }
+  }
+}
+
+void SetColor(Color color, double opacity) {
+  gl().Color4ub(color.r, color.g, color.b, static_cast<GLubyte>(std::lround(255 * opacity)));
+}
+
+/// Draws a form in the current colour.
+struct FormPainter {
+  const Camera& camera;
+  const std::vector<VertexArrays>& meshes;
+
+  void operator()(const Sphere& sphere) const {
+    VertexArrays(MakeCapsule(sphere.centre, sphere.centre, sphere.radius)).Draw();
+  }
+  void operator()(const Capsule& capsule) const {
+    VertexArrays(MakeCapsule(capsule.from, capsule.to, capsule.radius)).Draw();
+  }
+  void operator()(const Line& line) const {
+    gl().Disable(GL_LIGHTING);
+    const Vector3d back = camera.ToEye((line.from + line.to) / 2);
+    VertexArrays(MakeBand(line.from, line.to, line.radius, back)).Draw();
+    gl().Enable(GL_LIGHTING);
+  }
+  void operator()(const MeshInstance& instance) const {
+    gl().PushMatrix();
+    gl().MultMatrixd(instance.pose.data());
+    meshes[instance.mesh].Draw();
+    gl().PopMatrix();
+  }
+};
+
+/// Return the middle of a form, for its distance.
+struct Middle {
+  Vector3d operator()(const Sphere& sphere) const { return sphere.centre; }
+  Vector3d operator()(const Capsule& capsule) const { return (capsule.from + capsule.to) / 2; }
+  Vector3d operator()(const Line& line) const { return (line.from + line.to) / 2; }
+  Vector3d operator()(const MeshInstance& mesh) const { return mesh.pose.translation(); }
+};
+
+}  // namespace
+
+VertexArrays::VertexArrays(const ShadedMesh& mesh) {
+  Append(mesh.triangles, points_);
+  Append(mesh.normals, normals_);
+  for (const auto& triangle : mesh.colors) {
+    for (const Color& color : triangle) {
+      for (const unsigned char channel : {color.r, color.g, color.b}) colors_.push_back(channel);
+      colors_.push_back(255);
+    }
+  }
+}
+
+void VertexArrays::Draw() const {
+  gl().VertexPointer(3, GL_FLOAT, 0, points_.data());
+  gl().NormalPointer(GL_FLOAT, 0, normals_.data());
+  if (!colors_.empty()) {
+    gl().EnableClientState(GL_COLOR_ARRAY);
+    gl().ColorPointer(4, GL_UNSIGNED_BYTE, 0, colors_.data());
+  }
+  gl().DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(points_.size() / 3));
+  if (!colors_.empty()) gl().DisableClientState(GL_COLOR_ARRAY);
+}
+
+void SetCamera(const Camera& camera, const Band& band) {
+  const double distance = camera.position.norm();
+  const double near = kNearFactor * distance;
+  const double far = kFarFactor * distance;
+  const bool perspective = camera.projection == Projection::kPerspective;
+  const double half = camera.half_height * (perspective ? near : 1);
+  const double right = half * camera.width / camera.height;
+  const double top = half * (1 - 2.0 * band.top / band.height);
+  const double bottom = half * (1 - 2.0 * (band.top + band.rows) / band.height);
+  gl().MatrixMode(GL_PROJECTION);
+  gl().LoadIdentity();
+  (perspective ? gl().Frustum : gl().Ortho)(-right, right, bottom, top, near, far);
+  gl().MatrixMode(GL_MODELVIEW);
+  gl().LoadIdentity();
+  const float black[4] = {0, 0, 0, 1};
+  const float ambient[4] = {kAmbient, kAmbient, kAmbient, 1};
+  const float diffuse[4] = {kDiffuse, kDiffuse, kDiffuse, 1};
+  gl().LightModelfv(GL_LIGHT_MODEL_AMBIENT, black);
+  gl().Lightfv(GL_LIGHT0, GL_POSITION, kLightFrom);
+  gl().Lightfv(GL_LIGHT0, GL_AMBIENT, ambient);
+  gl().Lightfv(GL_LIGHT0, GL_DIFFUSE, diffuse);
+  Eigen::Isometry3d camera_pose = Eigen::Isometry3d::Identity();
+  camera_pose.linear() = camera.axes;
+  camera_pose.translation() = camera.position;
+  gl().LoadMatrixd(camera_pose.inverse().data());
+}
+
+void InitState() {
+  for (const GLenum on : {GL_DEPTH_TEST, GL_CULL_FACE, GL_LIGHTING, GL_LIGHT0, GL_COLOR_MATERIAL}) {
+    gl().Enable(on);
+  }
+  gl().ColorMaterial(GL_FRONT, GL_AMBIENT_AND_DIFFUSE);
+  gl().BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl().DepthFunc(GL_LEQUAL);
+  gl().EnableClientState(GL_VERTEX_ARRAY);
+  gl().EnableClientState(GL_NORMAL_ARRAY);
+}
+
+void SetMask(bool colors, bool alpha) {
+  gl().ColorMask(colors ? GL_TRUE : GL_FALSE, colors ? GL_TRUE : GL_FALSE,
+                 colors ? GL_TRUE : GL_FALSE, alpha ? GL_TRUE : GL_FALSE);
+}
+
+void ShapePainter::Draw(const Shape& shape) const {
+  SetColor(shape.color, shape.opacity);
+  std::visit(FormPainter{camera_, meshes_}, shape.form);
+}
+
+void ShapePainter::Draw(const MeshInstance& instance) const {
+  FormPainter{camera_, meshes_}(instance);
+}
+
+void ShapePainter::DrawOpaque(const std::vector<Shape>& shapes, bool alpha) const {
+  for (const Shape& shape : shapes) {
+    if (shape.opacity < 1) continue;
+    SetColor(shape.color, alpha ? 1 : 0);
+    std::visit(FormPainter{camera_, meshes_}, shape.form);
+  }
+}
+
+void ShapePainter::BlendTranslucent(const std::vector<Shape>& shapes) const {
+  std::vector<Shape> sorted;
+  std::ranges::copy_if(shapes, std::back_inserter(sorted),
+                       [](const Shape& shape) { return shape.opacity < 1; });
+  std::ranges::stable_sort(sorted, std::greater(), [&](const Shape& shape) {
+    return camera_.Depth(std::visit(Middle(), shape.form));
+  });
+  SetMask(true, false);
+  gl().Enable(GL_BLEND);
+  gl().DepthMask(GL_FALSE);
+  for (const Shape& shape : sorted) Draw(shape);
+  gl().DepthMask(GL_TRUE);
+  gl().Disable(GL_BLEND);
+}
+
+}  // namespace regrasp::render

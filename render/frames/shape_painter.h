@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "render/frames/camera.h"
+#include "render/frames/canvas.h"
+#include "render/frames/offscreen_context.h"
+
+namespace regrasp::render {
+
+/// Vertex arrays of a mesh for OpenGL.
+class VertexArrays {
+ public:
+  explicit VertexArrays(const ShadedMesh& mesh);
+  /// Draw the triangles in the current colour, or in their own colours if they have some.
+  void Draw() const;
+
+ private:
+  std::vector<float> points_;
+  std::vector<float> normals_;
+  std::vector<unsigned char> colors_;  ///< RGBA per corner; empty: the current colour
+};
+
+/// Rows from `top` to `top + rows` of an image with `height` rows.
+struct Band {
+  int top, rows, height;
+};
+
+/// Set up the state of a new context: depth test, one light, culled back sides.
+void InitState();
+
+/// Set the projection and the light of a camera for a band of its image.
+void SetCamera(const Camera& camera, const Band& band);
+
+/// Set whether drawing changes the colours and the alpha values of samples.
+void SetMask(bool colors, bool alpha);
+
+/// Draws shapes into the current context.
+class ShapePainter {
+ public:
+  /// @param camera, meshes  must outlive this object.
+  ShapePainter(const Camera& camera, const std::vector<VertexArrays>& meshes)
+      : camera_(camera), meshes_(meshes) {}
+
+  /// Draw a shape. Its opacity is the alpha of its samples.
+  void Draw(const Shape& shape) const;
+  /// Draw a mesh in the current colour.
+  void Draw(const MeshInstance& instance) const;
+  /// Draw the opaque shapes, with an alpha of 1 or 0.
+  void DrawOpaque(const std::vector<Shape>& shapes, bool alpha = true) const;
+  /// Blend the translucent shapes in order of decreasing distance. They hide nothing and do not
+  /// change alpha.
+  void BlendTranslucent(const std::vector<Shape>& shapes) const;
+
+ private:
+  const Camera& camera_;
+  const std::vector<VertexArrays>& meshes_;
+};
+
+}  // namespace regrasp::render
