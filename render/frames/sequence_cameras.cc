@@ -36,8 +36,8 @@ constexpr double kLowest = 0.35;
 /// Maximum number of evenly spaced frames of a hand that determine the viewpoint.
 constexpr std::size_t kMostViewed = 12;
 
-/// Cosines of the angle between line of sight and a length: above the first the length is hardly
-/// visible, below the second it is clearly visible. Cost of an excess over the second.
+/// Cosines of the angle between line of sight and a length: above the first the length appears below
+/// 60 % of its size, below the second above 87 %. Cost of an excess over the second.
 constexpr double kEndOn = 0.8;
 constexpr double kFromTheSide = 0.5;
 constexpr double kEndOnCost = 10;
