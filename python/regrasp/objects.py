@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import numpy as np
 
@@ -88,7 +89,7 @@ class Object:
         return made._made_by("from_arrays", vertices, faces, scale=scale, name=name)
 
     @classmethod
-    def from_trimesh(cls, mesh, *, scale: float = 1, name: str = "object.obj") -> Object:
+    def from_trimesh(cls, mesh: Any, *, scale: float = 1, name: str = "object.obj") -> Object:
         """Make a solid from a mesh of the library trimesh, or of another one with the same members.
 
         Args:
