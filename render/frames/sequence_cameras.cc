@@ -36,8 +36,8 @@ constexpr double kLowest = 0.35;
 /// Maximum number of evenly spaced frames of a hand that determine the viewpoint.
 constexpr std::size_t kMostViewed = 12;
 
-/// Cosines of the angle between line of sight and a length: above the first the length appears below
-/// 60 % of its size, below the second above 87 %. Cost of an excess over the second.
+/// Cosines of the angle between line of sight and a length: above the first the length appears
+/// below 60 % of its size, below the second above 87 %. Cost of an excess over the second.
 constexpr double kEndOn = 0.8;
 constexpr double kFromTheSide = 0.5;
 constexpr double kEndOnCost = 10;
@@ -70,11 +70,12 @@ class CameraChooser {
         view.direction ? Viewpoints{view.direction->ToCamera(), {}} : ViewpointsOf(all);
     if (!view.direction && !model_.planar) ShowLengths(snapshots.size(), viewpoints);
     const std::vector<Vector3d> points = ExtentOf(all, CameraAxes(viewpoints.common));
-    SequenceCameras cameras = {FitTo(points, viewpoints.common, model_.options.width, model_.options.height)};
+    SequenceCameras cameras = {
+        FitTo(points, viewpoints.common, model_.options.width, model_.options.height)};
     if (model_.options.crop) {
-      cameras.common =
-          Crop(cameras.common, MarginsFor(model_.options), points, EvenShare(kNarrowest, model_.options.width),
-               EvenShare(kLowest, model_.options.height));
+      cameras.common = Crop(cameras.common, MarginsFor(model_.options), points,
+                            EvenShare(kNarrowest, model_.options.width),
+                            EvenShare(kLowest, model_.options.height));
     }
     const auto& [width, height] = std::pair(cameras.common.width, cameras.common.height);
     for (std::size_t i = 0; i < viewpoints.own.size(); ++i) {
@@ -98,8 +99,8 @@ class CameraChooser {
     return worst;
   }
 
-  /// Give the last snapshot its own viewpoint if the present one does not show the required lengths:
-  /// the nearest one by azimuth that shows them, on the side of the marks.
+  /// Give the last snapshot its own viewpoint if the present one does not show the required
+  /// lengths: the nearest one by azimuth that shows them, on the side of the marks.
   void ShowLengths(std::size_t count, Viewpoints& viewpoints) const {
     if (count == 0) return;
     viewpoints.own.resize(count);
@@ -109,8 +110,7 @@ class CameraChooser {
     for (const Vector3d& p_W : model_.options.also_seen) marks += model_.frame.FromWorld(p_W);
     double best = -std::numeric_limits<double>::infinity();
     for (int degrees = -150; degrees <= 180; degrees += 10) {
-      const Vector3d back =
-          Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ()) * now;
+      const Vector3d back = Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ()) * now;
       const double turn = std::abs(degrees) / 180.0;
       const double side = marks.norm() > 0 ? marks.normalized().dot(back) : 0;
       const double score = side - turn - kEndOnCost * std::max(0.0, EndOn(back) - kFromTheSide);
@@ -145,8 +145,7 @@ class CameraChooser {
           if ((p - pose.translation()).norm() < kHandReach) all.hands.push_back(p);
         }
       }
-      all.frames.back() =
-          model_.GlyphsOf(snapshot, /*free_fingers=*/false);
+      all.frames.back() = model_.GlyphsOf(snapshot, /*free_fingers=*/false);
     }
     return all;
   }
@@ -163,7 +162,8 @@ class CameraChooser {
       }
     }
     for (const Vector3d& p : all.hands) extent.Add(Sphere{p, 0});
-    for (const Vector3d& p_W : model_.options.reached) extent.Add(Sphere{model_.frame.FromWorld(p_W), 0});
+    for (const Vector3d& p_W : model_.options.reached)
+      extent.Add(Sphere{model_.frame.FromWorld(p_W), 0});
     for (const Vector3d& p_W : model_.options.also_seen) {
       const Vector3d p = model_.frame.FromWorld(p_W);
       if (p.norm() < kFarMark) extent.Add(Sphere{p, kLabelSpace / 2});
@@ -180,8 +180,8 @@ class CameraChooser {
     }
     const Projection default_projection =
         model_.planar ? Projection::kOrthographic : Projection::kPerspective;
-    return FitCamera(CameraAxes(back), model_.options.view.projection.value_or(default_projection), width,
-                     height, margins, points);
+    return FitCamera(CameraAxes(back), model_.options.view.projection.value_or(default_projection),
+                     width, height, margins, points);
   }
 
   /// Choose viewpoints. A plan for a hand has one viewpoint, with the palm fixed in the image.
@@ -196,7 +196,9 @@ class CameraChooser {
       frames.push_back(all.frames[i]);
       placements.push_back(all.placements[i]);
     }
-    return {ChooseViewpoints(model_.body, model_.planar, frames, model_.largest_force, placements).common, {}};
+    return {ChooseViewpoints(model_.body, model_.planar, frames, model_.largest_force, placements)
+                .common,
+            {}};
   }
 
   const FrameModel& model_;

@@ -98,10 +98,9 @@ class VisibleChange {
     for (std::size_t i = 0; i < a.fingers.size(); ++i) {
       const plan::FingerState& from = a.fingers[i];
       const plan::FingerState& to = b.fingers[i];
-      const bool differs =
-          from.finger != to.finger || from.role != to.role ||
-          (from.contact_W - to.contact_W).norm() > kVisibleTravel * diameter_m_ ||
-          (from.force_W - to.force_W).norm() > kVisibleForce * largest_force_;
+      const bool differs = from.finger != to.finger || from.role != to.role ||
+                           (from.contact_W - to.contact_W).norm() > kVisibleTravel * diameter_m_ ||
+                           (from.force_W - to.force_W).norm() > kVisibleForce * largest_force_;
       if (differs) return true;
     }
     return false;

@@ -40,7 +40,7 @@ class ObjectProgress {
   std::optional<double> goal_angle_;
   double goal_distance_m_ = 0;
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< axis of the planned rotation
-  Eigen::Isometry3d first_, last_;  ///< first and last pose up to now
+  Eigen::Isometry3d first_, last_;                   ///< first and last pose up to now
   double angle_ = 0;
 };
 
