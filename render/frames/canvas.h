@@ -104,7 +104,7 @@ class Canvas {
   /// @param meshes         meshes that MeshInstance refers to.
   /// @param width, height  size of the images, pixels.
   /// @param supersampling  number of averaged samples along both axes of a pixel.
-  /// @throws EnvironmentError  if there is no off-screen rendering context.
+  /// @throws EnvironmentError  if off-screen rendering is not available.
   Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling);
   ~Canvas();
   Canvas(const Canvas& other);

@@ -96,7 +96,7 @@ class FrameRenderer {
   /// @param scale           metres per unit of the object.
   /// @param friction_angle  friction angle of the cones, radians.
   /// @param snapshots       snapshots of the whole sequence, for the choice of cameras.
-  /// @throws EnvironmentError       if there is no off-screen rendering context.
+  /// @throws EnvironmentError       if off-screen rendering is not available.
   /// @throws std::invalid_argument  if a side is outside [kMinFrameSide, kMaxFrameSide], or
   ///                                supersampling outside [1, 4].
   FrameRenderer(const object::Object& object, double scale, double friction_angle,

@@ -24,7 +24,7 @@ struct GraspScene {
 /// same scene gives the same bytes.
 /// @param caption  text below the hand.
 /// @param width    width and height of the image, pixels.
-/// @throws EnvironmentError  if there is no off-screen rendering context.
+/// @throws EnvironmentError  if off-screen rendering is not available.
 [[nodiscard]] Image DrawGraspScene(const GraspScene& scene, const object::Object& object,
                                    const std::string& caption, int width);
 

@@ -22,7 +22,7 @@ struct HandImageOptions {
 /// and radii, the axes of the palm frame and the direction up, and a scale bar. Links above the
 /// palm are omitted. Deterministic: the same hand gives the same bytes.
 /// @param caption  text below the hand.
-/// @throws EnvironmentError  if there is no off-screen rendering context.
+/// @throws EnvironmentError  if off-screen rendering is not available.
 [[nodiscard]] Image DrawHand(const kinematics::HandModel& hand,
                              const std::vector<kinematics::LinkVisual>& visuals,
                              const std::string& caption, const HandImageOptions& options = {});

@@ -78,7 +78,7 @@ struct AnimationFrame {
 /// @param frames    frames of the animation, ≥ 1.
 /// @param workers   number of threads that draw, ≥ 1.
 /// @param on_frame  function that is called with the number of finished frames.
-/// @throws EnvironmentError  if there is no off-screen rendering context or no encoder.
+/// @throws EnvironmentError  if off-screen rendering or the encoder is not available.
 [[nodiscard]] std::vector<std::string> RenderAnimation(
     const FrameRenderer& renderer, const std::vector<AnimationFrame>& frames,
     const std::vector<AnimationFormat>& formats, int workers,
