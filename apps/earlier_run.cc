@@ -223,6 +223,8 @@ std::string RunDigest(const ValidateOptions& options, const RunInputs& inputs) {
     sha256->empty() ? digest.AddAbsent(name) : digest.Add(name, *sha256);
   }
   if (!options.conditions_sha256.empty()) digest.Add("conditions", options.conditions_sha256);
+  // The HTML report links to the index page of its batch.
+  if (!options.index_key.empty()) digest.Add("index", options.index_key);
   return digest.Add("options", options.given).Finish();
 }
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/evaluate_page_script.h"
 #include "apps/evaluate_rows.h"
 #include "apps/evaluate_table.h"
 #include "planner/base/number.h"
+#include "report/page/data_table.h"
 #include "report/page/html_page.h"
 #include "report/page/step_table.h"
 
@@ -68,15 +68,16 @@ class GraspTableColumns {
   [[nodiscard]] Element Head() const {
     Element head("tr");
     ForEach({}, [&](std::string_view name, const std::string&, bool is_number) {
-      head.Add(report::HeadCell(name, is_number ? "number" : ""));
+      head.Add(name == "verdict" ? report::FilterHeadCell(name, "verdict")
+                                 : report::HeadCell(name, is_number ? "number" : ""));
     });
     return head;
   }
 
   [[nodiscard]] Element Row(const GraspRow& row, const std::string& images) const {
-    Element line("tr", {{"class", row.verdict == "pass" ? "pass" : "fail"},
-                        {"data-verdict", row.verdict},
-                        {"data-differs", row.differs_from_claim() ? "true" : "false"}});
+    report::Attributes attributes = {{"class", row.verdict == "pass" ? "pass" : "fail"}};
+    if (row.differs_from_claim()) attributes.emplace_back("data-also", "claim differs");
+    Element line("tr", attributes);
     ForEach(row, [&](std::string_view name, const std::string& text, bool is_number) {
       if (name == "grasp" && !images.empty() && row.distance_mm) {
         const std::string file = images + "/" + GraspImageName(row.index);
@@ -198,14 +199,12 @@ std::string FormatGraspPage(const std::filesystem::path& reports, const GraspPag
                                  " grasps, those that fail first. The file of reports and the CSV "
                                  "file have all."));
   }
-  Element body("tbody");
-  for (const GraspRow& row : rows.rows) body.Add(rows.columns.Row(row, page.images));
-  parts.push_back(Element(
-      "div", {{"class", "scroll"}},
-      Element("table", {{"id", "grasps"}}, Element("thead", {}, rows.columns.Head()), body)));
-  const std::array<std::string_view, 1> scripts = {kGraspPageScript};
+  report::DataTable table{"grasps", "grasps", rows.columns.Head(), {}};
+  for (const GraspRow& row : rows.rows) table.rows.push_back(rows.columns.Row(row, page.images));
+  for (const Element& part : report::MakeDataTable(table)) parts.push_back(part);
+  const std::array scripts = {report::DataTableScript()};
   return report::FormatHtmlPage("Evaluation of " + page.grasps, parts,
-                                report::PictureSource::kInPage, scripts, kGraspPageStyle);
+                                report::PictureSource::kInPage, scripts, report::DataTableStyle());
 }
 
 }  // namespace regrasp::apps

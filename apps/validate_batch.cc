@@ -7,6 +7,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "apps/batch/batch_page.h"
 #include "apps/batch/batch_summary.h"
 #include "apps/batch/plan_library.h"
 #include "apps/batch/process_pool.h"
@@ -40,6 +41,7 @@ constexpr int kExitKept = 4;
 int ValidateOne(ValidateOptions options, const LibraryPlan& plan, const fs::path& folder) {
   options.plan_path = plan.path.string();
   options.out = (folder / plan.name).string();
+  options.index_key = PlanKey(plan.name);
   options.junit.clear();
   options.quiet = true;
   options.workers = std::max(1, options.workers / options.jobs);

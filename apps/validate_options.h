@@ -91,8 +91,9 @@ struct ValidateOptions {
   bool allow_object_change = false;
   bool allow_undecided = false;
   bool quiet = false;
-  bool silent = false;  ///< whether failures are not printed, because the caller prints them
-  int jobs;             ///< number of simultaneous plans, or of threads that make states
+  bool silent = false;    ///< whether failures are not printed, because the caller prints them
+  std::string index_key;  ///< key of the plan on the index page of its batch; empty: no batch
+  int jobs;               ///< number of simultaneous plans, or of threads that make states
   std::optional<double> time_limit_s;
   bool fresh = false;  ///< whether to discard the results of an earlier run
   std::string shard;   ///< part of a JSON Lines file; empty: all

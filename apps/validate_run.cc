@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/batch/plan_library.h"
 #include "apps/earlier_run.h"
 #include "apps/frame_files.h"
 #include "apps/locked_output_folder.h"
@@ -214,8 +215,12 @@ void WritePictures(const ValidateOptions& options, const render::FrameOptions& f
     WriteFile(options.video, report::FormatViewerHtml(report, task.plan, replay));
   }
   if (!options.has_viewer(report.passed())) replay.clear();
+  report::IndexRow index;
+  if (!options.index_key.empty()) {
+    index = {"../" + std::string(kIndexName), options.index_key};
+  }
   WriteFile(folder / kPageName, report::FormatReportHtml(report, task.plan, pictures, moving,
-                                                         replay, FingerNames(task)));
+                                                         replay, FingerNames(task), index));
 }
 
 /// Check that no file of the run was removed.

@@ -56,13 +56,4 @@ struct BatchSummary {
 [[nodiscard]] std::string FormatSummaryJunit(const BatchSummary& summary,
                                              const std::filesystem::path& folder);
 
-/// Format index.html, the overview page of a batch.
-/// It is written next to the folders of the plans. Plans that did not pass come first, each group
-/// in the order of the batch. Each plan has its verdict in words, the image of the failed step or
-/// the overview image, its weakest step, its size, and a link to its own page.
-///
-/// Every external text is escaped. The same plans give the same bytes, regardless of reused results
-/// and of the number of jobs.
-[[nodiscard]] std::string FormatBatchPage(const BatchSummary& summary);
-
 }  // namespace regrasp::apps

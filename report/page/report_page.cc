@@ -23,13 +23,14 @@ class Page {
  public:
   Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures,
        const PagePicture& moving, std::string_view viewer,
-       std::span<const std::string> finger_names)
+       std::span<const std::string> finger_names, const IndexRow& index)
       : report_(report),
         plan_(plan),
         pictures_(pictures),
         moving_(moving),
         viewer_(viewer),
         finger_names_(finger_names),
+        index_(index),
         measures_(MeasureSteps(report)) {
     for (const ReportStep& step : report.steps) {
       if (step.verdict() == Verdict::kFail) failed_ = step.check.index;
@@ -43,7 +44,7 @@ class Page {
   [[nodiscard]] std::string Format() const {
     Parts all;
     for (const Parts& parts :
-         {Parts{Header()}, Viewer(), StillFrame(),
+         {Links(), Parts{Header()}, Viewer(), StillFrame(),
           MakeStepTable(report_, plan_, measures_, Anchors(), finger_names_), Plots(),
           Parts{MakeFacts(report_, measures_)}, MakeFingerTable(report_), MakeGoalSection(report_),
           MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
@@ -79,6 +80,18 @@ class Page {
             Element("p", {{"class", "note no-viewer"}},
                     "The interactive 3-D replay requires JavaScript and WebGL."),
             data};
+  }
+
+  /// The index page finds the previous and the next plan, so that results of other plans do not
+  /// change this page.
+  [[nodiscard]] Parts Links() const {
+    if (index_.page.empty()) return {};
+    const auto link = [this](const char* fragment, const char* text) {
+      return Element("a", {{"href", index_.page + "#" + fragment + "=" + index_.key}}, text);
+    };
+    return {Element(
+        "nav", {{"class", "links"}},
+        Parts{link("plan", "All plans"), link("before", "Previous"), link("after", "Next")})};
   }
 
   [[nodiscard]] Element Header() const {
@@ -294,6 +307,7 @@ class Page {
   const PagePicture& moving_;
   std::string_view viewer_;
   std::span<const std::string> finger_names_;
+  const IndexRow& index_;
   std::vector<StepMeasures> measures_;
   std::optional<plan::EntryIndex> failed_;
   std::optional<plan::EntryIndex> still_;  ///< entry of the image below the verdict
@@ -303,14 +317,18 @@ class Page {
 
 std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                              const std::vector<PagePicture>& pictures, const PagePicture& moving,
-                             std::string_view viewer, std::span<const std::string> finger_names) {
+                             std::string_view viewer, std::span<const std::string> finger_names,
+                             const IndexRow& index) {
   assert(pictures.empty() || pictures.size() == report.steps.size());
-  return Page(report, plan, pictures, moving, viewer, finger_names).Format();
+  return Page(report, plan, pictures, moving, viewer, finger_names, index).Format();
 }
 
 std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
                              std::string_view viewer) {
-  return Page(report, plan, {}, {}, viewer, {}).FormatViewer();
+  const std::vector<PagePicture> pictures;
+  const PagePicture moving;
+  const IndexRow index;
+  return Page(report, plan, pictures, moving, viewer, {}, index).FormatViewer();
 }
 
 int PagePictureWidth(int count) {

@@ -20,6 +20,12 @@ struct PagePicture {
   bool own_view = false;  ///< whether the camera differs from that of the other images
 };
 
+/// Row of a plan on the index page of a batch (DataTable).
+struct IndexRow {
+  std::string page = {};  ///< relative link to the index page; empty: no index
+  std::string key = {};   ///< key of the row in links: page#plan=KEY
+};
+
 /// Return the text of report.html, a page that needs no other file.
 /// It has the verdict, the interactive 3-D replay, settings, plots of displacement and friction
 /// margin over the steps, a table with one line per step, and the images. Without scripts or WebGL
@@ -32,11 +38,13 @@ struct PagePicture {
 /// @param moving    animation of the replay, if there is one; omitted in print.
 /// @param viewer    data of the interactive replay (render::FormatViewerScene); empty: none.
 /// @param finger_names  names of fingers by index; other fingers have their number.
+/// @param index     row of the plan on an index page, which the page links to.
 [[nodiscard]] std::string FormatReportHtml(const Report& report, const plan::Plan& plan,
                                            const std::vector<PagePicture>& pictures,
                                            const PagePicture& moving = {},
                                            std::string_view viewer = "",
-                                           std::span<const std::string> finger_names = {});
+                                           std::span<const std::string> finger_names = {},
+                                           const IndexRow& index = {});
 
 /// Return a page with the verdict and the interactive 3-D replay only.
 /// @param viewer  data of the replay (render::FormatViewerScene).

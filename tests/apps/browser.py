@@ -111,7 +111,7 @@ class Browser:
 
     def value(self, script):
         """Return the value of a JavaScript expression in the page."""
-        result = self.command("Runtime.evaluate", expression=script, returnByValue=True)
+        result = self.command("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
             raise RuntimeError(json.dumps(result["exceptionDetails"]))
         return result["result"].get("value")

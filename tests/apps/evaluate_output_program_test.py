@@ -180,12 +180,12 @@ class EvaluatePage(OutputCase):
         self.set("filter-text", "", "input")
         self.set("filter-verdict", "pass", "change")
         self.assertEqual(self.shown(), ["hold 1"])
-        self.set("filter-verdict", "differs", "change")
+        self.set("filter-verdict", "claim differs", "change")
         self.assertEqual(self.shown(), ["open 10"])
         self.assertEqual(self.browser.value("document.getElementById('filter-count').textContent"), " 1 of 4 grasps")
 
     def displayed(self):
-        return self.browser.value("Array.from(document.querySelectorAll('#grasps tbody tr')).filter(row => "
+        return self.browser.value("Array.from(document.querySelectorAll('table.data tbody tr')).filter(row => "
                                   "getComputedStyle(row).display !== 'none').length")
 
     def test_large_tables_show_their_first_rows_until_asked_for_all(self):

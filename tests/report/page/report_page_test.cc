@@ -84,6 +84,16 @@ TEST(ReportPageTest, APlanThatPassesSaysSoAndHasALineForEachStep) {
   EXPECT_EQ(page, FormatReportHtml(scene.report, scene.plan, {}));
 }
 
+TEST(ReportPageTest, AReportOfABatchLinksToItsRowAndToItsNeighbours) {
+  const Scene scene(/*fails=*/false);
+  const std::string page =
+      FormatReportHtml(scene.report, scene.plan, {}, {}, "", {}, {"../index.html", "a%22b"});
+  EXPECT_THAT(page, HasSubstr("<a href=\"../index.html#plan=a%22b\">All plans</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"../index.html#before=a%22b\">Previous</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"../index.html#after=a%22b\">Next</a>"));
+  EXPECT_THAT(FormatReportHtml(scene.report, scene.plan, {}), Not(HasSubstr("<nav")));
+}
+
 TEST(ReportPageTest, APlanThatFailsSaysWhereAndWhy) {
   const Scene scene(/*fails=*/true);
   const std::string page = FormatReportHtml(scene.report, scene.plan, {});

@@ -1,0 +1,36 @@
+// Measurements inside a page, for bench-pages.
+'use strict';
+
+// Time in seconds until the page has drawn the result of a change.
+window.secondsOf = (change) => new Promise((done) => {
+  const begin = performance.now();
+  change();
+  requestAnimationFrame(() => setTimeout(() => done((performance.now() - begin) / 1000)));
+});
+
+window.sortTable = (column) => window.secondsOf(() => document.querySelectorAll('table.data th button')[column].click());
+
+window.searchTable = (text) => window.secondsOf(() => {
+  const field = document.getElementById('filter-text');
+  field.value = text;
+  field.dispatchEvent(new Event('input'));
+});
+
+// Frames per second of the replay, played from its start.
+window.framesPerSecond = (seconds) => new Promise((done) => {
+  const viewer = document.getElementById('viewer').viewer;
+  const draw = viewer.draw;
+  let frames = 0;
+  viewer.draw = function() {
+    ++frames;
+    return draw.apply(this, arguments);
+  };
+  viewer.setTime(0);
+  viewer.toggle();
+  frames = 0;
+  const begin = performance.now();
+  setTimeout(() => {
+    viewer.toggle();
+    done(1000 * frames / (performance.now() - begin));
+  }, 1000 * seconds);
+});
