@@ -1,7 +1,5 @@
 #include "apps/evaluate_files.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <system_error>
@@ -10,19 +8,13 @@
 #include "apps/evaluate_csv.h"
 #include "apps/evaluate_page.h"
 #include "apps/evaluate_table.h"
+#include "apps/output_files.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 
 namespace regrasp::apps {
 
 namespace {
-
-std::string LowerSuffix(const std::string& file) {
-  std::string suffix = std::filesystem::path(file).extension().string();
-  std::ranges::transform(suffix, suffix.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
 
 void SetOutput(const std::string& file, const char* format, std::string& place) {
   if (!place.empty()) {
@@ -44,10 +36,9 @@ void WriteTable(const EvaluateFiles& files, const std::string& grasps) {
 EvaluateFiles SortEvaluateOutputs(const EvaluateOptions& options) {
   EvaluateFiles files;
   for (const std::string& file : options.outputs) {
-    const std::string suffix = LowerSuffix(file);
-    if (suffix == ".csv") {
+    if (LowerSuffix(file) == ".csv") {
       SetOutput(file, "CSV", files.table);
-    } else if (suffix == ".html" || suffix == ".htm") {
+    } else if (IsHtmlFile(file)) {
       SetOutput(file, "HTML", files.page);
     } else {
       SetOutput(file, "JSON Lines", files.reports);

@@ -1,6 +1,5 @@
 #include "apps/help.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,16 +10,13 @@
 #include <optional>
 #include <sstream>
 
+#include "apps/terminal_text.h"
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 
 namespace regrasp::apps {
 
 namespace {
-
-/// Limits of the width of a text, and its default.
-/// Narrower lines break words, and wider ones are hard to read.
-constexpr int kNarrowest = 40, kWidest = 120, kUsualWidth = 80;
 
 /// Column of an option's text in --help.
 constexpr int kTextColumn = 26;
@@ -257,19 +253,7 @@ std::string HelpText(const CLI::App& app, int width, HelpLevel level) {
   return text + (examples.empty() ? "" : "\nExamples:\n" + examples);
 }
 
-int HelpWidth() {
-  const char* columns = std::getenv("COLUMNS");
-  const std::optional<double> asked = columns == nullptr ? std::nullopt : ParseDouble(columns);
-  winsize terminal{};
-  int width = kUsualWidth;
-  if (asked && *asked >= 1) {
-    width = static_cast<int>(std::min<double>(*asked, kWidest));
-  } else if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) == 0 &&
-             terminal.ws_col > 0) {
-    width = terminal.ws_col;
-  }
-  return std::clamp(width, kNarrowest, kWidest);
-}
+int HelpWidth() { return TextWidth(STDOUT_FILENO); }
 
 std::string WrapText(const std::string& text, int indent, int width) {
   return Wrap(text, indent, width);

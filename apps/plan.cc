@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "apps/commands.h"
 #include "apps/output_files.h"
 #include "apps/plan_lines.h"
+#include "apps/plan_page.h"
 #include "apps/plan_program.h"
 #include "apps/program.h"
 #include "apps/progress.h"
@@ -43,7 +45,6 @@ std::string StepCounts(const std::vector<plan::Step>& steps) {
 }
 
 void CheckOutput(const PlanProgram& program) {
-  if (program.output == "-") return;
   std::vector<NamedFile> inputs = {{"--object", program.common.object},
                                    {"--hand", program.hand.hand},
                                    {"--goals", program.hand.goals},
@@ -52,7 +53,8 @@ void CheckOutput(const PlanProgram& program) {
     if (!end.is_random()) inputs.push_back({end.option, end.value});
   }
   OutputFiles outputs;
-  outputs.Add("--output", program.output);
+  if (program.output != "-") outputs.Add("--output", program.output);
+  outputs.Add("--output", program.page);
   CheckOutputsDiffer(inputs, outputs);
   CheckOutputsWritable(outputs);
 }
@@ -110,6 +112,25 @@ void PrintSize(const PlannerOptions& common, const object::ObjectFile& object,
                               object::UnitText(object.unit));
 }
 
+void WriteOutputs(const PlanProgram& program, const object::ObjectFile& object,
+                  const FinishedPlan& finished) {
+  const plan::Plan& plan = *finished.result.plan;
+  const std::string text = plan::FormatPlan(plan);
+  std::string page;
+  if (!program.page.empty()) {
+    const bool has_file = !program.output.empty() && program.output != "-";
+    const std::filesystem::path named = has_file ? program.output : program.page;
+    page = FormatPlanPage(object, plan, finished.check, program.hand_file.get(),
+                          named.filename().string());
+  }
+  if (program.output == "-") {
+    std::cout << text;
+  } else if (!program.output.empty()) {
+    WriteFile(program.output, text);
+  }
+  if (!program.page.empty()) WriteFile(program.page, page);
+}
+
 int RunOne(PlanProgram program) {
   const PlannerOptions& common = program.common;
   program.CheckEnds();
@@ -131,12 +152,7 @@ int RunOne(PlanProgram program) {
     const double off = plan::FarthestFromPoints(finished.check.projected, *given) * common.scale;
     result.notes.push_back("contacts: at given points, at most " + FormatLength(off) + " off");
   }
-  const std::string text = plan::FormatPlan(*result.plan);
-  if (program.output == "-") {
-    std::cout << text;
-  } else {
-    WriteFile(program.output, text);
-  }
+  WriteOutputs(program, object, finished);
   result.warnings.insert(
       result.warnings.begin(),
       {has_hand ? "" : object::SizeWarning(body, common.scale), common.friction.warning()});

@@ -8,6 +8,7 @@
 #include "apps/help.h"
 #include "apps/options.h"
 #include "apps/plan_object.h"
+#include "apps/plan_page.h"
 #include "apps/progress.h"
 #include "planner/base/error.h"
 #include "planner/certificate/align_certificate.h"
@@ -56,8 +57,11 @@ void PlanProgram::AddTo(CLI::App& app) {
   AddEnds(app);
   hand.AddTo(app);
   BeginGroup(app, "Output");
-  app.add_option("-o,--output", output, "Plan file. - is standard output")
+  app.add_option("-o,--output", outputs,
+                 "Plan file. - is standard output. With the suffix .html a page with the "
+                 "interactive 3-D replay of the planned motion. Repeat it for both")
       ->type_name("FILE")
+      ->allow_extra_args(false)
       ->required();
   BeginGroup(app, "Many plans");
   AddBatch(app);
@@ -249,6 +253,12 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
 }
 
 void PlanProgram::Finish(const CLI::App& app) {
+  const PlanOutputs sorted = SortPlanOutputs(outputs);
+  output = sorted.plan;
+  page = sorted.page;
+  if (!batch.empty() && !page.empty()) {
+    throw InputError("--output: with --batch expected a JSON Lines file, found " + page);
+  }
   for (const char* name :
        {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
         "--goals", "--gravity", "--continue", "--robustness"}) {

@@ -48,7 +48,9 @@ struct PlanProgram {
   PlannerOptions common;
   PlanEnd start{"--start", "", "", ""};
   PlanEnd goal{"--goal", "", "", ""};
-  std::string output;
+  std::vector<std::string> outputs;  ///< all files of --output
+  std::string output;  ///< plan file, "-" for standard output; empty: none. Set by Finish
+  std::string page;    ///< HTML page of the plan; empty: none. Set by Finish
   double min_quality = criteria::GraspCriteria().min_quality;
   double finger_radius = 0;  ///< radius of the fingertips; 0: points
   planning::Objective objective = planning::Objective::kSteps;

@@ -29,6 +29,7 @@
 #include "apps/help.h"
 #include "apps/options.h"
 #include "apps/renamed_options.h"
+#include "apps/terminal_text.h"
 #include "planner/base/deadline.h"
 #include "planner/base/error.h"
 #include "planner/base/file.h"
@@ -183,24 +184,43 @@ int Run(CLI::App& app, std::vector<std::string> words, const std::string& called
 
 }  // namespace
 
-void PrintMessage(const std::string& program, std::string_view message) {
-  std::string line = OneLine(message);
-  const std::string warning = "warning:";
-  if (line.starts_with(warning) && TakesColour(STDERR_FILENO)) {
-    line = Paint(warning, Ink::kYellow) + line.substr(warning.size());
+namespace {
+
+/// Print a line on standard error, wrapped on a terminal.
+/// @param start  start of the line's text that is coloured.
+void PrintLine(const std::string& program, const std::string& line, std::size_t start, Ink ink) {
+  std::string text = program + ": " + line;
+  if (isatty(STDERR_FILENO) != 1) {
+    std::cerr << text + "\n";
+    return;
   }
-  std::cerr << program + ": " + line + "\n";
+  text = WrapForTerminal(text, TextWidth(STDERR_FILENO));
+  text.pop_back();
+  if (start > 0 && TakesColour(STDERR_FILENO)) {
+    const std::size_t begin = program.size() + 2;
+    text = text.substr(0, begin) + Paint(text.substr(begin, start), ink) +
+           (start < text.size() - begin ? text.substr(begin + start) : "");
+  }
+  std::cerr << text + "\n";
+}
+
+}  // namespace
+
+void PrintMessage(const std::string& program, std::string_view message) {
+  const std::string_view warning = "warning:";
+  PrintLine(program, OneLine(message), message.starts_with(warning) ? warning.size() : 0,
+            Ink::kYellow);
 }
 
 void PrintError(const std::string& program, std::string_view message) {
-  const std::string line = OneLine(message);
-  std::cerr << program + ": " + (TakesColour(STDERR_FILENO) ? Paint(line, Ink::kRed) : line) + "\n";
+  PrintLine(program, OneLine(message), std::string::npos, Ink::kRed);
 }
 
 void PrintTable(const std::string& table, const std::string& files) {
   // Scripts read the last line, which has the verdict.
   std::string text = table;
   text.insert(text.rfind('\n', text.size() - 2) + 1, OneLine("files: " + files) + "\n");
+  if (isatty(STDOUT_FILENO) == 1) text = ArrangeForTerminal(text, TextWidth(STDOUT_FILENO));
   std::cout << (TakesColour(STDOUT_FILENO) ? PaintVerdicts(text) : text);
 }
 
@@ -350,7 +370,8 @@ bool TakesColour(int stream) {
     const char* value = std::getenv(name);
     return std::string(value == nullptr ? "" : value);
   };
-  return variable("NO_COLOR").empty() && variable("TERM") != "dumb" && isatty(stream) == 1;
+  return variable("NO_COLOR").empty() && variable("CLICOLOR") != "0" &&
+         variable("TERM") != "dumb" && isatty(stream) == 1;
 }
 
 std::string Paint(const std::string& text, Ink ink) {

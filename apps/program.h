@@ -45,14 +45,15 @@ int RunGuarded(const std::string& program, const std::function<int()>& run);
 [[nodiscard]] std::string ProgramVersion();
 
 /// Print "name: message" as exactly one line on standard error, for any bytes.
-/// A warning is coloured on a terminal.
+/// On a terminal the line is wrapped, and a warning is coloured.
 void PrintMessage(const std::string& program, std::string_view message);
 
 /// Print an error like PrintMessage; the line is red on a terminal.
 void PrintError(const std::string& program, std::string_view message);
 
-/// Print a table with verdicts on standard output, with colours on a terminal.
-/// A line with the paths of its files is inserted before the last line.
+/// Print a table with verdicts on standard output.
+/// A line with the paths of its files is inserted before the last line, which has the verdict. On a
+/// terminal the verdict is first, with colours (ArrangeForTerminal).
 void PrintTable(const std::string& table, const std::string& files);
 
 /// Return the linker's digest of the running program, hexadecimal.
@@ -69,8 +70,8 @@ void PrintTable(const std::string& table, const std::string& files);
 [[nodiscard]] std::string RunDate();
 
 /// Return whether text on a stream may have colour.
-/// The stream must be a terminal that is not dumb, and NO_COLOR must be unset or empty
-/// (no-color.org).
+/// The stream must be a terminal that is not dumb, NO_COLOR must be unset or empty (no-color.org),
+/// and CLICOLOR must not be 0.
 /// @param stream  STDOUT_FILENO or STDERR_FILENO.
 [[nodiscard]] bool TakesColour(int stream);
 

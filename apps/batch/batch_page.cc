@@ -119,12 +119,13 @@ Element Row(const PlanOutcome& plan) {
       margin ? report::StepName(plan::EntryIndex(*report.weakest_step)) : "";
   std::optional<double> steps;
   if (plan.report) steps = static_cast<double>(report.entries.size()) - 1;
-  Element row("tr", {{"class", Passed(plan) ? "pass" : "fail"}, {"id", "plan=" + PlanKey(plan.name)}});
+  Element row("tr",
+              {{"class", Passed(plan) ? "pass" : "fail"}, {"id", "plan=" + PlanKey(plan.name)}});
   row.Add(PictureCell(plan));
-  row.Add(plan.report
-              ? Element("td", {},
-                        Element("a", {{"href", PlanKey(plan.name) + "/" + kPage}}, plan.name))
-              : Element("td", {}, plan.name));
+  row.Add(
+      plan.report
+          ? Element("td", {}, Element("a", {{"href", PlanKey(plan.name) + "/" + kPage}}, plan.name))
+          : Element("td", {}, plan.name));
   row.Add(Element("td", {{"class", "outcome"}}, VerdictWord(plan)));
   row.Add(TextCell(failure ? failure->reason : ""));
   row.Add(TextCell(FailureText(plan)));

@@ -27,10 +27,9 @@ Element RowsTable(Attributes attributes, const Element& head, std::span<const El
 std::vector<Element> MakeDataTable(const DataTable& table) {
   const std::span<const Element> rows(table.rows);
   const std::size_t first = std::min(kFirstRows, rows.size());
-  std::vector<Element> parts = {RowsTable({{"id", table.id},
-                                           {"data-noun", table.noun},
-                                           {"data-count", std::to_string(rows.size())}},
-                                          table.head, rows.first(first))};
+  std::vector<Element> parts = {RowsTable(
+      {{"id", table.id}, {"data-noun", table.noun}, {"data-count", std::to_string(rows.size())}},
+      table.head, rows.first(first))};
   if (first < rows.size()) {
     parts.emplace_back("noscript", Attributes{{"id", table.id + "-rest"}},
                        RowsTable({}, table.head, rows.subspan(first)));

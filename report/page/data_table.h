@@ -25,9 +25,9 @@ inline constexpr std::size_t kFirstRows = 500;
 /// - row, id="NAME=KEY": the link #NAME=KEY shows the row. The links #before=KEY and #after=KEY
 ///   open the page that the next row above or below links to.
 struct DataTable {
-  std::string id;    ///< id of the table
-  std::string noun;  ///< plural noun of the rows: "plans"
-  Element head;      ///< element tr with the head cells
+  std::string id;             ///< id of the table
+  std::string noun;           ///< plural noun of the rows: "plans"
+  Element head;               ///< element tr with the head cells
   std::vector<Element> rows;  ///< elements tr
 };
 

@@ -19,6 +19,19 @@ namespace regrasp::report {
 
 namespace {
 
+using Parts = std::vector<Element>;
+
+/// The replay is hidden until its script runs. The data are not a script that could run.
+Parts ViewerParts(std::string_view viewer) {
+  if (viewer.empty()) return {};
+  Element data("script", {{"type", "application/json"}, {"id", "viewer-data"}});
+  data.AddVerbatim(viewer);
+  return {Element("div", {{"id", "viewer"}, {"class", "viewer"}, {"tabindex", "0"}}),
+          Element("p", {{"class", "note no-viewer"}},
+                  "The interactive 3-D replay requires JavaScript and WebGL."),
+          data};
+}
+
 class Page {
  public:
   Page(const Report& report, const plan::Plan& plan, const std::vector<PagePicture>& pictures,
@@ -44,7 +57,7 @@ class Page {
   [[nodiscard]] std::string Format() const {
     Parts all;
     for (const Parts& parts :
-         {Links(), Parts{Header()}, Viewer(), StillFrame(),
+         {Links(), Parts{Header()}, ViewerParts(viewer_), StillFrame(),
           MakeStepTable(report_, plan_, measures_, Anchors(), finger_names_), Plots(),
           Parts{MakeFacts(report_, measures_)}, MakeFingerTable(report_), MakeGoalSection(report_),
           MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
@@ -55,31 +68,18 @@ class Page {
   }
 
   [[nodiscard]] std::string FormatViewer() const {
-    Parts all = Viewer();
+    Parts all = ViewerParts(viewer_);
     all.insert(all.begin(), Header());
     return FormatPage(all);
   }
 
  private:
-  using Parts = std::vector<Element>;
-
   [[nodiscard]] std::string FormatPage(const Parts& parts) const {
     const std::string extent = Extent();
     const std::string title = (report_.passed() ? "Pass" : "Fail") +
                               (extent.empty() ? "" : " " + extent) + ": " + report_.plan_file;
     if (viewer_.empty()) return FormatHtmlPage(title, parts);
     return FormatHtmlPage(title, parts, PictureSource::kInPage, render::ViewerScripts());
-  }
-
-  /// The replay is hidden until its script runs. The data are not a script that could run.
-  [[nodiscard]] Parts Viewer() const {
-    if (viewer_.empty()) return {};
-    Element data("script", {{"type", "application/json"}, {"id", "viewer-data"}});
-    data.AddVerbatim(viewer_);
-    return {Element("div", {{"id", "viewer"}, {"class", "viewer"}, {"tabindex", "0"}}),
-            Element("p", {{"class", "note no-viewer"}},
-                    "The interactive 3-D replay requires JavaScript and WebGL."),
-            data};
   }
 
   /// The index page finds the previous and the next plan, so that results of other plans do not
@@ -329,6 +329,21 @@ std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
   const PagePicture moving;
   const IndexRow index;
   return Page(report, plan, pictures, moving, viewer, {}, index).FormatViewer();
+}
+
+std::string FormatPlanHtml(const Report& report, std::string_view viewer) {
+  const auto steps = static_cast<int>(report.steps.size()) - 1;
+  const std::string planner = report.planner.empty() ? "" : ", planner " + report.planner;
+  Parts parts = {Element("p", {{"class", "kicker"}}, "Regrasp plan"),
+                 Element("h1", {}, report.plan_file),
+                 Note(report.object_file + planner + ", " + std::to_string(steps) +
+                      (steps == 1 ? " step" : " steps") + ", friction angle " +
+                      FormatDegrees(Degrees(report.friction_angle)) +
+                      ". The planned motion, not simulated: regrasp validate replays the plan and "
+                      "decides whether it passes.")};
+  for (const Element& part : ViewerParts(viewer)) parts.push_back(part);
+  return FormatHtmlPage("Plan: " + report.plan_file, parts, PictureSource::kInPage,
+                        render::ViewerScripts());
 }
 
 int PagePictureWidth(int count) {

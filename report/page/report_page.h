@@ -51,6 +51,12 @@ struct IndexRow {
 [[nodiscard]] std::string FormatViewerHtml(const Report& report, const plan::Plan& plan,
                                            std::string_view viewer);
 
+/// Return a page with the interactive 3-D replay of a plan that was not simulated.
+/// It shows the planned motion without forces, and no verdict.
+/// @param report  results of the analytic check only: steps without replay.
+/// @param viewer  data of the replay (render::FormatViewerScene).
+[[nodiscard]] std::string FormatPlanHtml(const Report& report, std::string_view viewer);
+
 /// Return the width of an image in pixels with which a page of `count` images can be sent by mail.
 [[nodiscard]] int PagePictureWidth(int count);
 

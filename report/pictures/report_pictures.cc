@@ -69,8 +69,12 @@ ShownEntry ShowFailure(const object::Object& object, const plan::Plan& plan, con
   return {&step, std::move(picture.snapshot), std::move(picture.marks)};
 }
 
-ShownEntry ShowSound(const ReportStep& step, const HandPicture* hand) {
-  ShownEntry shown{&step, step.replay->snapshot};
+/// @param planned  plan on the object; required for a step that was not replayed.
+ShownEntry ShowSound(const ReportStep& step, const HandPicture* hand,
+                     const std::optional<plan::Plan>& planned) {
+  ShownEntry shown{&step, step.replay ? step.replay->snapshot
+                                      : plan::MakePlannedSnapshot(*planned, step.check.index, {},
+                                                                  /*fingertip_radius_m=*/0)};
   plan::Fault none;
   if (hand == nullptr) return shown;
   hand->MarkSwitch(step.check.index, shown.snapshot);
@@ -155,11 +159,14 @@ std::vector<ShownEntry> ShowEntries(const object::Object& object, const plan::Pl
                                     const HandPicture* hand, const Report& report,
                                     const std::vector<HandSample>& samples) {
   const plan::HandState* actual = StateAtFailure(report, samples);
+  const auto is_planned = [](const ReportStep& step) { return !step.replay && !step.skipped; };
+  std::optional<plan::Plan> planned;
+  if (std::ranges::any_of(report.steps, is_planned)) planned = plan::ProjectPlan(object, plan);
   std::vector<ShownEntry> shown;
   for (const ReportStep& step : report.steps) {
     if (step.skipped) continue;
     shown.push_back(Failed(step) ? ShowFailure(object, plan, step, report, hand, actual)
-                                 : ShowSound(step, hand));
+                                 : ShowSound(step, hand, planned));
   }
   return shown;
 }

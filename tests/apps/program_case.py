@@ -6,11 +6,14 @@ project), then unittest's own arguments.
 
 import argparse
 import copy
+import fcntl
 import json
 import os
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import threading
 import unittest
 
@@ -96,12 +99,13 @@ class ProgramCase(unittest.TestCase):
             env={name: value for name, value in dict(os.environ, **(environment or {})).items()
                  if value is not None})
 
-    def run_on_terminal(self, *arguments, environment=None):
-        """Run with a terminal as standard error; return the finished process and the terminal's
-        text."""
+    def run_on_terminal(self, *arguments, environment=None, stream="stderr", columns=0):
+        """Run with a terminal as standard error or standard output; return the finished process and
+        the terminal's text. 0 columns means that the width is unknown."""
         without_no_color = {name: value for name, value in os.environ.items()
-                            if name not in ("NO_COLOR", "TERM")}
+                            if name not in ("NO_COLOR", "TERM", "CLICOLOR", "COLUMNS")}
         master, terminal = os.openpty()
+        fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         self.addCleanup(os.close, master)
         command = [os.path.join(ARGUMENTS.programs, self.program), *arguments]
         shown = []
@@ -116,9 +120,9 @@ class ProgramCase(unittest.TestCase):
         watcher = threading.Thread(target=watch)
         watcher.start()
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=terminal, cwd=self.folder, timeout=HANG_SECONDS,
-                                  check=False, env={"TERM": "xterm", **without_no_color,
+            streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: terminal}
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, **streams, cwd=self.folder,
+                                  timeout=HANG_SECONDS, check=False, env={"TERM": "xterm", **without_no_color,
                                                     **(environment or {})})
         finally:
             os.close(terminal)

@@ -46,6 +46,39 @@ class Validate(ProgramCase):
                            "checking the plan")
         self.assertEqual(self.run_on_terminal(*arguments, "--quiet")[1], "")
 
+    def on_terminal(self, columns, code, *more, **environment):
+        done, shown = self.run_on_terminal(*self.arguments("--frames", "none", *more), stream="stdout", columns=columns,
+                                           environment=environment)
+        self.assertEqual(done.returncode, code, shown)
+        return shown.replace("\r\n", "\n")
+
+    def test_a_terminal_has_the_verdict_first_and_wrapped_reasons(self):
+        shown = self.on_terminal(60, 1, "--friction-angle", "6")
+        colour = re.compile("\x1b\\[[0-9;]*m")
+        plain = colour.sub("", shown)
+        lines = plain.splitlines()
+        self.assertTrue(shown.startswith("verdict: \x1b[31mfail\x1b[0m\nstep 0 (hold) fails: "
+                                         .replace("step", "\x1b[31mstep")), repr(shown[:80]))
+        self.assertTrue(lines[-1].startswith("files: "), lines)
+        self.assertTrue(any(line.startswith("  why: ") for line in lines[:6]), lines)
+        prose = [line for line in lines if "  " not in line.strip()]
+        self.assertLessEqual(max(map(len, prose)), 60, prose)
+        self.assertGreater(len(plain.splitlines()), 12)
+        # The same words, in a different order, as without a terminal.
+        piped = self.run_program(*self.arguments("--frames", "none", "--friction-angle", "6"))
+        self.assertNotIn("\x1b", piped.stdout)
+        self.assertTrue(piped.stdout.splitlines()[-1].startswith("verdict: fail, step 0 (hold) fails: "))
+        self.assertLessEqual(set(plain.split()), set(piped.stdout.split()) | {"fail"})
+        self.assertGreater(max(map(len, piped.stdout.splitlines())), 120)
+        self.assertTrue(self.on_terminal(0, 0).startswith("verdict: \x1b[32mpass\x1b[0m\n"))
+
+    def test_colour_can_be_disabled(self):
+        for environment in ({"NO_COLOR": "1"}, {"TERM": "dumb"}, {"CLICOLOR": "0"}):
+            shown = self.on_terminal(80, 0, **environment)
+            self.assertTrue(shown.startswith("verdict: pass\n"), environment)
+            self.assertNotIn("\x1b", shown)
+        self.assertIn("\x1b", self.on_terminal(80, 0, NO_COLOR="", CLICOLOR="1"))  # control
+
     def write_plan(self):
         self.write_json("plan.json", self.plan)
 

@@ -258,6 +258,58 @@ class Viewer(ProgramCase):
         self.assertTrue(self.browser.value(RUNNING))
         self.assertEqual(self.browser.value("document.querySelectorAll('img[src=x]').length"), 0)
 
+    def plan_page(self, *more, name="plan.html"):
+        self.assert_done("--object", self.model("cube.obj"), "--output", name, *more, program="plan")
+        self.open(name=name)
+        self.assertEqual(self.browser.console, [])
+        self.assertTrue(self.browser.value(RUNNING))
+        ElementTree.fromstring(self.page(name).replace("<!DOCTYPE html>", "", 1))
+
+    def test_plan_writes_a_page_of_a_plan_without_a_hand(self):
+        ends = ["--start", self.model("cube.start.json"), "--goal", self.model("cube.goal.json"), "--mu", "0.4"]
+        name = "<i>\"'&ß.HTML"
+        self.plan_page(*ends, name=name)
+        self.assertEqual(self.browser.value("document.querySelector('h1').textContent"), name)
+        first = self.scene()
+        self.browser.press("2")
+        self.assertEqual(self.number("step"), 2)
+        self.assertGreater(different_pixels(first, self.scene()), 200)
+        self.assertIn("not simulated", self.browser.value("document.querySelector('.note').textContent"))
+        self.assertEqual(self.browser.value("document.querySelectorAll('.verdict').length"), 0)
+        self.assertIn("not replayed", self.browser.value("document.querySelector('.fingers tbody').textContent"))
+        # The plan file is that of a run without a page, and the page has the same bytes in each run.
+        page = self.page(name)
+        both = [*ends, "--object", self.model("cube.obj"), "--output", "plan.json"]
+        self.assert_done(*both, program="plan")
+        plan = self.read("plan.json")
+        self.assert_done(*both, "--output", "other.html", program="plan")
+        self.assertEqual(self.read("plan.json"), plan)
+        self.assertIn("<h1>plan.json</h1>", self.page("other.html"))
+        self.plan_page(*ends, name=name)
+        self.assertEqual(self.page(name), page)
+        for words, *outputs in (("expected one HTML file", "a.html", "b.htm"), ("expected one plan file", "a.json", "b.json"),
+                                ("--output", "a.html", "a.html")):
+            self.assert_refused(2, words, *ends, "--object", self.model("cube.obj"),
+                                *[word for output in outputs for word in ("-o", output)], program="plan")
+        self.write("queries.jsonl", "{}")
+        self.assert_refused(2, "expected a JSON Lines file", "--object", self.model("cube.obj"), "--mu", "0.4", "--batch",
+                            "queries.jsonl", "-o", "a.html", program="plan")
+
+    def test_plan_writes_a_page_of_a_plan_for_a_hand(self):
+        self.plan_page("--hand", self.model("hands/ring5.json"), "--scale", "0.8", "--mu", "0.8", "--turn", "z 30")
+        first = self.scene()
+        self.browser.value("document.getElementById('viewer').viewer.setTime(1e9)")
+        line = self.browser.value("document.querySelector('.status span').textContent")
+        self.assertIn("rotated 30.0° of 30.0°", line)
+        self.assertIn("not the time of the simulation", line)
+        self.assertGreater(different_pixels(first, self.scene()), 2000)
+
+    def test_no_plan_writes_no_page(self):
+        done = self.run_program("--object", self.model("cube.obj"), "--mu", "0.05", "--start", self.model("cube.start.json"),
+                                "--goal", self.model("cube.goal.json"), "-o", "a.html", "-o", "a.json", program="plan")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_options_decide_which_pages_have_it(self):
         self.validate_cube()
         page = self.page()

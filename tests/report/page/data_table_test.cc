@@ -12,8 +12,7 @@ using testing::Not;
 std::string Format(int rows) {
   DataTable table{"things", "things", Element("tr", {}, Element("th", {}, "Name")), {}};
   for (int i = 0; i < rows; ++i) {
-    table.rows.emplace_back("tr", Attributes(),
-                            Element("td", {}, "row " + std::to_string(i)));
+    table.rows.emplace_back("tr", Attributes(), Element("td", {}, "row " + std::to_string(i)));
   }
   std::string text;
   for (const Element& part : MakeDataTable(table)) text += part.Format();
