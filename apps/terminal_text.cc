@@ -61,7 +61,7 @@ std::string ArrangeForTerminal(const std::string& text, int width) {
   if (lines.empty()) return "";
   std::string verdict = lines.back();
   lines.pop_back();
-  // The first reason repeats what follows "verdict: fail, ".
+  // The first reason repeats the text after "verdict: fail, ".
   if (!lines.empty() && verdict == std::string(kFail) + ", " + lines.front()) verdict = kFail;
   const auto table = std::ranges::find_if(lines, IsTableRow);
   std::string arranged = WrapForTerminal(verdict, width);

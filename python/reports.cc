@@ -1,9 +1,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +19,7 @@
 #include "planner/base/number.h"
 #include "planner/plan/plan_io.h"
 #include "python/binding.h"
+#include "render/picture/animation.h"
 #include "render/picture/image.h"
 #include "report/failure.h"
 #include "report/page/report_page.h"
@@ -33,12 +36,16 @@ namespace py = pybind11;
 
 namespace {
 
+/// Time between two recorded states of a replay by point fingers, seconds.
+constexpr double kSampleInterval_s = 0.01;
+
 /// Report held by Python, with the inputs of its images.
 struct PythonReport {
   report::Report report;
   plan::Plan plan;
   std::shared_ptr<const kinematics::HandFile> hand;  ///< null: no hand was checked
   std::vector<report::HandSample> samples;           ///< states of a replay by the hand
+  std::vector<plan::Snapshot> snapshots;             ///< states of a replay by point fingers
 };
 
 constexpr std::array kEngines = {sim::EngineChoice::kMujoco, sim::EngineChoice::kOde,
@@ -54,6 +61,11 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
     kept = std::make_shared<const kinematics::HandFile>(kinematics::HandOfPlan(hand->file, plan));
   validation::ValidationObserver observer;
   report::HandRecorder recorder;
+  std::vector<plan::Snapshot> snapshots;
+  observer.replay.sample_interval_s = kSampleInterval_s;
+  observer.replay.on_sample = [&](const plan::Snapshot& snapshot) {
+    snapshots.push_back(snapshot);
+  };
   observer.replay.on_time_step = [&](const sim::HandWorld& world) { recorder.Add(world); };
   const auto progress = interrupt.progress();
   observer.replay.on_progress = [&](int done, int total) {
@@ -70,7 +82,8 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;
   report.plan_sha256 = Sha256(text);
-  return {std::move(report), std::move(plan), std::move(kept), recorder.samples()};
+  return {std::move(report), std::move(plan), std::move(kept), recorder.samples(),
+          std::move(snapshots)};
 }
 
 PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
@@ -141,6 +154,97 @@ py::tuple Draw(const PythonReport& of, const PythonObject& object, int width, in
   py::list arrays;
   for (const render::Image& frame : frames) arrays.append(ArrayOf(frame));
   return py::make_tuple(arrays, ArrayOf(sheet));
+}
+
+/// Return the animation of the replay as the bytes of a file.
+/// @param file  name whose suffix names the format.
+py::bytes Animate(const PythonReport& of, const PythonObject& object, const std::string& file,
+                  int width, int height) {
+  const auto format = render::FindAnimationFormat(file);
+  if (!format) throw InputError("path: " + file + ": expected the suffix .mp4, .gif or .webp");
+  report::DrawingOptions options;
+  options.frame.width = width;
+  options.frame.height = height;
+  options.frame.crop = false;
+  options.workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::string bytes;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::optional<report::HandPicture> hand = HandOf(of, object);
+    if (hand) options.hand = &*hand;
+    bytes = report::DrawAnimation(*object.file.object, of.plan, options, of.samples, {*format},
+                                  of.report)
+                .bytes.front();
+  }
+  return bytes;
+}
+
+/// Write a pose as position and quaternion w, x, y, z.
+void SetPose(const Eigen::Isometry3d& pose, double* row) {
+  const Eigen::Vector3d& p = pose.translation();
+  const Eigen::Quaterniond q(pose.linear());
+  const std::array values = {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+  std::ranges::copy(values, row);
+}
+
+constexpr int kPoseSize = 7;
+
+/// Return times, poses, entries and joint angles of a replay by a hand.
+py::tuple HandMotion(const PythonReport& of) {
+  const auto count = static_cast<py::ssize_t>(of.samples.size());
+  py::ssize_t joints = 0;
+  for (const std::vector<double>& finger : of.samples.front().state.joints) {
+    joints += std::ssize(finger);
+  }
+  py::array_t<double> times(count), poses({count, py::ssize_t{kPoseSize}}), angles({count, joints});
+  py::array_t<std::int64_t> entries(count);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const report::HandSample& sample = of.samples[i];
+    times.mutable_at(i) = sample.time_s;
+    entries.mutable_at(i) = int{sample.entry};
+    SetPose(sample.state.pose, poses.mutable_data(i, 0));
+    py::ssize_t k = 0;
+    for (const std::vector<double>& finger : sample.state.joints) {
+      for (const double angle : finger) angles.mutable_at(i, k++) = angle;
+    }
+  }
+  std::vector<std::string> names;
+  for (const kinematics::Finger& finger : of.hand->hand.fingers) {
+    for (const kinematics::Joint& joint : finger.joints) names.push_back(joint.name);
+  }
+  return py::make_tuple(times, poses, entries, angles, names);
+}
+
+/// Return times, poses and fingertip positions of a replay by point fingers.
+/// Fingers that a state does not have are NaN.
+py::tuple PointMotion(const PythonReport& of) {
+  const auto count = static_cast<py::ssize_t>(of.snapshots.size());
+  int fingers = 0;
+  for (const plan::Snapshot& snapshot : of.snapshots) {
+    for (const plan::FingerState& state : snapshot.fingers) {
+      fingers = std::max(fingers, state.finger + 1);
+    }
+  }
+  constexpr py::ssize_t kAxes = 3;
+  py::array_t<double> times(count), poses({count, py::ssize_t{kPoseSize}}),
+      tips({count, static_cast<py::ssize_t>(fingers), kAxes});
+  std::fill_n(tips.mutable_data(), tips.size(), std::numeric_limits<double>::quiet_NaN());
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const plan::Snapshot& snapshot = of.snapshots[i];
+    times.mutable_at(i) = snapshot.time_s;
+    SetPose(snapshot.X_WO, poses.mutable_data(i, 0));
+    for (const plan::FingerState& state : snapshot.fingers) {
+      for (int k = 0; k < kAxes; ++k) tips.mutable_at(i, int{state.finger}, k) = state.tip_W[k];
+    }
+  }
+  return py::make_tuple(times, poses, tips);
+}
+
+/// Return the recorded motion; None if nothing was replayed.
+py::object Motion(const PythonReport& of) {
+  if (!of.samples.empty()) return HandMotion(of);
+  if (!of.snapshots.empty()) return PointMotion(of);
+  return py::none();
 }
 
 py::bytes EncodePng(const py::array_t<std::uint8_t, py::array::c_style>& pixels) {
@@ -218,6 +322,8 @@ void BindReports(py::module_& module) {
           "table", [](const PythonReport& of) { return report::FormatReportTable(of.report); })
       .def_property_readonly("failure", FailureOf)
       .def("draw", Draw)
+      .def("animate", Animate)
+      .def("motion", Motion)
       .def("format_page", FormatPage);
   py::list engines;
   for (const sim::EngineChoice engine : kEngines) engines.append(report::EngineName(engine));

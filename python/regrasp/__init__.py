@@ -27,7 +27,7 @@ from .hand_grasps import GraspVerdicts, validate_grasps
 from .hands import Hand
 from .objects import Object
 from .plans import NoPlan, Plan, plan, plan_in_hand
-from .reports import Report, validate
+from .reports import Report, Trajectory, validate
 
 InputError.__module__ = __name__
 
@@ -40,6 +40,7 @@ __all__ = [
     "Object",
     "Plan",
     "Report",
+    "Trajectory",
     "force_closure",
     "plan",
     "plan_in_hand",

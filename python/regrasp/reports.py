@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,19 +17,49 @@ from .objects import Object
 from .plans import Plan
 
 
+@dataclass(frozen=True)
+class Trajectory:
+    """Motion of the object and the fingers in a replay, without disturbance tests.
+
+    Positions are in metres. Poses are in the palm frame for a replay by a hand, otherwise in the world
+    frame, in which the object starts at the pose of its file. N is the number of recorded states.
+    """
+
+    time_s: np.ndarray
+    """Array (N) of simulated times, seconds."""
+    position_m: np.ndarray
+    """Array (N, 3) of the positions of the object's origin, metres."""
+    quaternion: np.ndarray
+    """Array (N, 4) of the orientations of the object, unit quaternions w, x, y, z."""
+    step: np.ndarray | None
+    """Array (N) of the step of each state, 0 for the initial grasp; None for point fingers."""
+    joints: np.ndarray | None
+    """Array (N, J) of joint angles of all fingers, radians; None for point fingers."""
+    joint_names: list[str] | None
+    """Names of the J joints; None for point fingers."""
+    fingertips_m: np.ndarray | None
+    """Array (N, F, 3) of fingertip positions, metres; None for a hand. The plan does not determine the path of a
+    free finger, whose position jumps. A finger that the replay does not have is NaN."""
+
+
 class Report:
     """The result of `validate`; `data` is report.json as a dict (docs/report.schema.json).
+
+    Reports with the same `text` are equal. A pickle has `text`, `table` and `failure`, the object, the plan and
+    the arguments of `validate`. The first use of images, pages or `trajectory` after unpickling validates again.
 
     A notebook displays the interactive replay and the table. `text` is the content of report.json, `table`
     a text with one line per step and the verdict. `failure` is one line with the failure, its cause and
     a remedy, or None if the plan passes.
     """
 
-    def __init__(self, core: _regrasp.Report, object: Object):
+    def __init__(self, core: _regrasp.Report, object: Object, plan: Plan, arguments: dict[str, Any]):
         if not isinstance(core, _regrasp.Report):
             raise TypeError("use regrasp.validate")
-        self._core = core
+        self._made: _regrasp.Report | None = core
         self._object = object
+        self._plan = plan
+        self._arguments = arguments
         self._drawn: dict[tuple[int, int], tuple] = {}
         self.text: str = core.json
         """Content of report.json."""
@@ -36,6 +68,25 @@ class Report:
         """Text with one line per step, the weakest step and the verdict."""
         self.failure: str | None = core.failure
         """Failure, cause and remedy in one line; None if the plan passes."""
+
+    @property
+    def _core(self) -> _regrasp.Report:
+        """Result of the C++ library. An unpickled report makes it at the first use."""
+        if self._made is None:
+            again = validate(self._object, self._plan, **self._arguments)
+            if again.text != self.text:
+                raise InputError(f"{self!r}: differs from the pickled report, which another version of regrasp made")
+            self._made = again._made
+        return self._made
+
+    def __reduce__(self):
+        return _unpickle, (self._object, self._plan, self._arguments, self.text, self.table, self.failure)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Report) and self.text == other.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
 
     @property
     def passed(self) -> bool:
@@ -69,6 +120,41 @@ class Report:
         """
         return self._draw(size)[1]
 
+    @property
+    def trajectory(self) -> Trajectory:
+        """Motion of the object and the fingers in the replay, up to the first failure.
+
+        A replay by point fingers has 100 states per second. A replay by a hand has 50, and fewer if it has more
+        than 4000 states.
+
+        Raises:
+            InputError: nothing was replayed, because the analytic check fails, or a hand was replayed in ODE.
+        """
+        motion = self._core.motion()
+        if motion is None:
+            raise InputError(f"{self!r} has no trajectory: no step was replayed")
+        times, poses, *fingers = motion
+        pose = {"time_s": times, "position_m": poses[:, :3].copy(), "quaternion": poses[:, 3:].copy()}
+        if len(fingers) == 1:
+            return Trajectory(**pose, step=None, joints=None, joint_names=None, fingertips_m=fingers[0])
+        step, joints, names = fingers
+        return Trajectory(**pose, step=step, joints=joints, joint_names=names, fingertips_m=None)
+
+    def video(self, path: str | os.PathLike, size: tuple[int, int] = (1280, 720)) -> None:
+        """Write the animation of the replay, as `validate --video FILE` does.
+
+        Args:
+            path: file to write. The suffix names the format: .mp4 (H.264), .gif or .webp.
+            size: width and height, pixels. An odd width or height of an MP4 is increased by one.
+
+        Raises:
+            InputError: the suffix or the size is invalid.
+            OSError: the file cannot be written.
+        """
+        path = _arguments.path("path", path)
+        width, height = _size(size)
+        _regrasp.write_file(path, self._core.animate(self._object._core, path, width, height))
+
     def page(self) -> str:
         """Return the HTML report with the interactive 3-D replay and without frames.
 
@@ -99,14 +185,7 @@ class Report:
             _regrasp.write_file(os.path.join(folder, name), content)
 
     def _draw(self, size):
-        try:
-            width, height = size
-        except (TypeError, ValueError):
-            raise InputError("size must be width and height, found "
-                             f"{_arguments.shown(size)}") from None
-        limits = _regrasp.least_frame_side, _regrasp.most_frame_side
-        size = (_arguments.integer("size[0]", width, *limits),
-                _arguments.integer("size[1]", height, *limits))
+        size = _size(size)
         if size not in self._drawn:
             self._drawn[size] = self._core.draw(self._object._core, *size)
         return self._drawn[size]
@@ -123,6 +202,28 @@ class Report:
     def __repr__(self) -> str:
         verdict = "pass" if self.passed else self.failure
         return f"<Report of {self.data['plan']['file']}: {verdict}>"
+
+
+def _size(size) -> tuple[int, int]:
+    """Check width and height of images."""
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise InputError("size must be width and height, found "
+                         f"{_arguments.shown(size)}") from None
+    limits = _regrasp.least_frame_side, _regrasp.most_frame_side
+    return (_arguments.integer("size[0]", width, *limits),
+            _arguments.integer("size[1]", height, *limits))
+
+
+def _unpickle(object: Object, plan: Plan, arguments: dict[str, Any], text: str, table: str,
+              failure: str | None) -> Report:
+    """Make the report of a pickle, without validating again."""
+    report = Report.__new__(Report)
+    report._made, report._object, report._plan, report._arguments = None, object, plan, arguments
+    report._drawn = {}
+    report.text, report.data, report.table, report.failure = text, json.loads(text), table, failure
+    return report
 
 
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
@@ -176,6 +277,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     [(240, 320, 3), (240, 320, 3), (240, 320, 3)]
     >>> report.page().startswith("<!DOCTYPE html>")
     True
+    >>> report.trajectory.position_m.shape == (len(report.trajectory.time_s), 3)
+    True
     >>> validate(cube, found, mu=0.05).steps[0]["reason"]
     'not-force-closure'
     >>> both = validate(cube, found, engine="both")
@@ -184,6 +287,10 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     """
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
+    arguments = {"mu": mu, "friction_angle_deg": friction_angle_deg, "torsion": torsion, "mass": mass,
+                 "squeeze": squeeze, "shake": shake, "tolerance": tolerance, "engine": engine,
+                 "stress": stress, "hand": hand, "replay": replay, "tip": tip, "tolerance_mm": tolerance_mm,
+                 "tolerance_deg": tolerance_deg, "feedback": feedback}
     given = _regrasp.ValidationOptions()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
     if torsion is not None:
@@ -222,4 +329,5 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
                              _arguments.number("tolerance_deg", tolerance_deg, 0))
     return Report(_regrasp.validate_plan(object._core, plan.text, plan.name, given,
                                          hand._core if hand else None,
-                                         _arguments.callback("progress", progress)), object)
+                                         _arguments.callback("progress", progress)),
+                  object, plan, arguments)

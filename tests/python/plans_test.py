@@ -3,6 +3,7 @@
 import json
 import pickle
 import os
+import shutil
 import signal
 import subprocess
 import threading
@@ -169,6 +170,88 @@ class PlansTest(RegraspCase):
         self.refuses(["size[0]", "from 48", "10"], report.frames, (10, 240))
         broken = regrasp.validate(self.cube, self.plan, mu=0.05)
         self.assertEqual(len(broken.frames((320, 240))), 1)
+
+    def test_a_pickled_report_is_equal_and_draws_the_same(self):
+        for arguments in ({}, {"mu": 0.05}, {"mass": 0.2, "stress": True}):
+            report = regrasp.validate(self.cube, self.plan, **arguments)
+            again = pickle.loads(pickle.dumps(report))
+            self.assertEqual(again, report)
+            self.assertEqual(hash(again), hash(report))
+            self.assertEqual((again.text, again.table, again.failure, again.passed, again.data),
+                             (report.text, report.table, report.failure, report.passed, report.data))
+            self.assertEqual(pickle.dumps(again), pickle.dumps(report))
+            self.assertIsNone(again._made)  # not validated again so far
+            self.assertEqual(again.page(), report.page())
+        self.assertNotEqual(again, regrasp.validate(self.cube, self.plan))
+        self.assertNotEqual(again, again.text)
+
+    def test_a_pickled_report_whose_inputs_changed_is_refused(self):
+        shutil.copy("models/cube.obj", self.path("cube.obj"))
+        cube = regrasp.Object.read(self.path("cube.obj"))
+        report = regrasp.validate(cube, regrasp.plan(cube, START, GOAL, friction_angle_deg=20))
+        kept = pickle.dumps(report)
+        with open(self.path("cube.obj"), "a", encoding="utf-8") as file:
+            file.write("# changed\n")
+        with self.assertRaisesRegex(regrasp.InputError, "cube.obj: differs from the pickled object"):
+            pickle.loads(kept)
+        other = pickle.loads(pickle.dumps(regrasp.validate(self.cube, self.plan)))
+        other.text += " "
+        with self.assertRaisesRegex(regrasp.InputError, "differs from the pickled report"):
+            other.page()
+
+    def test_the_trajectory_has_the_states_of_the_replay(self):
+        trajectory = regrasp.validate(self.cube, self.plan).trajectory
+        count = len(trajectory.time_s)
+        self.assertGreater(count, 10)
+        self.assertTrue((np.diff(trajectory.time_s) > 0).all())
+        self.assertEqual(trajectory.position_m.shape, (count, 3))
+        self.assertEqual(trajectory.quaternion.shape, (count, 4))
+        np.testing.assert_allclose(np.linalg.norm(trajectory.quaternion, axis=1), 1, atol=1e-12)
+        np.testing.assert_allclose(trajectory.position_m, 0, atol=1e-4)  # point fingers hold the cube still
+        np.testing.assert_allclose(np.abs(trajectory.quaternion[:, 0]), 1, atol=1e-4)
+        self.assertEqual(trajectory.fingertips_m.shape, (count, 5, 3))
+        self.assertIsNone(trajectory.joints)
+        contacts = self.plan.data["initial"]["contacts"]
+        for contact in contacts:
+            tip = trajectory.fingertips_m[0, contact["finger"]]
+            self.assertLess(np.linalg.norm(tip - contact["point"]), 0.02)
+        # The fingers of the last grasp are at their contacts at the end.
+        last = self.plan.data["steps"][-1]["place"]
+        for contact in last:
+            tip = trajectory.fingertips_m[-1, contact["finger"]]
+            self.assertLess(np.linalg.norm(tip - contact["point"]), 0.02)
+        self.assertGreater(len(contacts) * len(last), 0)
+        self.refuses(["no trajectory"], lambda: regrasp.validate(self.cube, self.plan, mu=0.05).trajectory)
+
+    def test_the_trajectory_of_a_hand_turns_the_object(self):
+        hand = regrasp.Hand.read("models/hands/ring5.json")
+        cube = regrasp.Object.read("models/cube.obj", scale=0.8)
+        plan = regrasp.plan_in_hand(cube, hand, turn=("z", 30), mu=0.8)
+        report = regrasp.validate(cube, plan, hand=hand)
+        trajectory = report.trajectory
+        count = len(trajectory.time_s)
+        self.assertEqual(trajectory.joints.shape, (count, len(trajectory.joint_names)))
+        self.assertEqual(trajectory.step[0], 0)
+        self.assertEqual(trajectory.step[-1], len(plan) if report.passed else trajectory.step[-1])
+        angle = 2 * np.degrees(np.arccos(np.clip(abs(np.dot(trajectory.quaternion[0], trajectory.quaternion[-1])), 0, 1)))
+        self.assertAlmostEqual(angle, 30, delta=3)
+        self.assertIsNone(trajectory.fingertips_m)
+        self.assertEqual(pickle.loads(pickle.dumps(report)), report)
+
+    def test_the_video_is_that_of_the_program(self):
+        self.plan.write(self.path("plan.json"))
+        report = regrasp.validate(self.cube, self.plan)
+        report.video(self.path("replay.webp"), (160, 120))
+        subprocess.run([f"{PROGRAMS}/validate", "--object", "models/cube.obj", "--plan", self.path("plan.json"),
+                        "--output", self.path("out"), "--frames", "none", "--size", "animation=160x120", "--video",
+                        self.path("program.webp"), "--quiet"], check=True)
+        with open(self.path("replay.webp"), "rb") as file, open(self.path("program.webp"), "rb") as program:
+            self.assertEqual(file.read(), program.read())
+        self.refuses(["path", ".webp", "avi"], report.video, self.path("replay.avi"))
+        self.refuses(["size[1]"], report.video, self.path("replay.gif"), (160, 1))
+        with self.assertRaises(OSError):
+            report.video(self.path("missing/replay.gif"), (160, 120))
+        self.assertEqual(sorted(name for name in os.listdir(self.path("")) if name.startswith("replay")), ["replay.webp"])
 
     def test_a_notebook_shows_plans_and_reports(self):
         report = regrasp.validate(self.cube, self.plan)
