@@ -100,8 +100,10 @@ class Index(ProgramCase):
         self.set("filter-text", "nothing", "input")
         self.assertEqual(self.names(), [])
         # A filter with one value is not shown.
-        self.assertTrue(self.browser.value("document.getElementById('filter-object').parentNode.hidden"))
-        self.assertFalse(self.browser.value("document.getElementById('filter-verdict').parentNode.hidden"))
+        display = "getComputedStyle(document.getElementById('filter-{}').parentNode).display"
+        self.assertEqual(self.browser.value(display.format("object")), "none")
+        self.assertEqual(self.browser.value(display.format("verdict")), "flex")
+        self.assertEqual(self.browser.value("getComputedStyle(document.getElementById('filter-all')).display"), "none")
         self.wait("Array.from(document.images).every(image => image.complete)")
         self.assertEqual(self.browser.value("Array.from(document.images).filter(image => !image.naturalWidth).length"), 0)
 

@@ -2,11 +2,13 @@
 
 import base64
 import hashlib
+import json
 import os
 import re
 import shutil
 import xml.etree.ElementTree as ElementTree
 
+import long_plan
 import program_case
 from browser import Browser, NO_WEBGL
 from picture_pixels import png_pixels, png_rows, png_size
@@ -19,6 +21,10 @@ LARGEST_PAGE = 1_500_000
 
 STATE = "document.getElementById('viewer').dataset"
 RUNNING = "document.getElementById('viewer').classList.contains('running')"
+
+# Poses of the object, at present and at the start.
+POSE = "document.getElementById('viewer').viewer.scene.object.quaternion.clone()"
+START = "document.getElementById('viewer').viewer.scene.ghost.quaternion.clone().inverse()"
 
 # Hides what covers the scene and changes with time, so that a screenshot shows only the scene.
 SCENE_ONLY = ("document.querySelectorAll('.status, .overlay, .banner')"
@@ -183,6 +189,33 @@ class Viewer(ProgramCase):
         failure = "document.getElementById('viewer').viewer.data.failure"
         self.assertGreater(self.browser.value(failure + ".links.length"), 0)
         self.assertIn("apart", self.browser.value("document.querySelector('.tag.mark').textContent"))
+
+    def test_a_page_with_200_steps_opens_and_its_slider_moves_the_object(self):
+        hand = ["--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json")]
+        self.assert_done(*hand, "--scale", "0.8", "--mu", "0.8", "--turn", "z 5", "--output", "turn.json", program="plan")
+        plan = json.loads(self.read("turn.json"))
+        long_plan.repeat_motion(plan, 200)
+        self.write_json("many.json", plan)
+        # In a replay by point fingers, hand and object follow the planned path.
+        self.assert_done(*hand, "--plan", "many.json", "--output", "result", "--frames", "none,viewer=all", "--replay", "points")
+        self.open("#step=199")
+        self.assertEqual(self.browser.console, [])
+        self.assertEqual(self.number("step"), 199)
+        self.assertEqual(self.browser.value("document.querySelectorAll('#viewer .ticks i').length"), 201)
+        turn = "(q => 2 * Math.acos(Math.min(1, Math.abs(q.w))) * 180 / Math.PI)(" + POSE + ".multiply(" + START + "))"
+        angles = []
+        for step in (100, 101, 200):  # even steps end at the start, odd steps are 5 degrees away
+            end = self.browser.value(f"document.getElementById('viewer').viewer.steps[{step}].end - 0.01")
+            self.browser.value(f"(s => {{ s.value = {end}; s.dispatchEvent(new Event('input')); }})"
+                               "(document.querySelector('#viewer input[type=range]'))")
+            self.assertEqual(self.number("step"), step)
+            angles.append(self.browser.value(turn))
+            if step == 100:
+                before = self.scene()
+            elif step == 101:
+                self.assertGreater(different_pixels(before, self.scene()), 200)
+        for angle, expected in zip(angles, (0, 5, 0)):
+            self.assertAlmostEqual(angle, expected, delta=0.2)
 
     def test_it_fits_a_phone(self):
         self.validate_cube()
