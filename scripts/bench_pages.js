@@ -16,21 +16,25 @@ window.searchTable = (text) => window.secondsOf(() => {
   field.dispatchEvent(new Event('input'));
 });
 
-// Frames per second of the replay, played from its start.
-window.framesPerSecond = (seconds) => new Promise((done) => {
+// Frames per second of the replay, played from its start, and the time in milliseconds that the scripts of the page
+// take per frame. The browser draws WebGL in another process.
+window.playReplay = (seconds) => new Promise((done) => {
   const viewer = document.getElementById('viewer').viewer;
   const draw = viewer.draw;
   let frames = 0;
+  let scripts = 0;
   viewer.draw = function() {
+    const start = performance.now();
+    draw.apply(this, arguments);
+    scripts += performance.now() - start;
     ++frames;
-    return draw.apply(this, arguments);
   };
   viewer.setTime(0);
   viewer.toggle();
-  frames = 0;
+  frames = scripts = 0;
   const begin = performance.now();
   setTimeout(() => {
     viewer.toggle();
-    done(1000 * frames / (performance.now() - begin));
+    done([1000 * frames / (performance.now() - begin), scripts / frames]);
   }, 1000 * seconds);
 });
