@@ -14,6 +14,7 @@ set(regrasp_slow_tests
   apps.general
   apps.hand
   apps.hands_table
+  apps.index
   apps.lines
   apps.meshes
   apps.models

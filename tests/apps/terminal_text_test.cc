@@ -6,7 +6,7 @@ namespace regrasp::apps {
 namespace terminal_text_test {
 
 TEST(WrapForTerminal, IndentsFurtherLines) {
-  EXPECT_EQ(WrapForTerminal("one two three", 8), "one two\n  three\n");
+  EXPECT_EQ(WrapForTerminal("one two three", 10), "one two\n  three\n");
   EXPECT_EQ(WrapForTerminal("  why: one two", 12), "  why: one\n    two\n");
   EXPECT_EQ(WrapForTerminal("short", 80), "short\n");
   EXPECT_EQ(WrapForTerminal("", 80), "\n");
