@@ -327,8 +327,7 @@ std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object
     throw InputError("--hand: expected " + DescribeFile(plan.hand->file, plan.hand->sha256) +
                      ", found " + DescribeFile(hand_path, file.hand.sha256));
   }
-  const report::HandPicture picture(file, plan,
-                                    plan.scale * object.mass_properties().centroid);
+  const report::HandPicture picture(file, plan, plan.scale * object.mass_properties().centroid);
   render::FigureHand hand = {picture.view(), picture.FingerNames(), {}};
   for (plan::EntryIndex i{0}; i <= std::ssize(plan.steps); ++i) {
     plan::Fault none;
@@ -372,8 +371,8 @@ void FigureProgram::CheckOut() const {
   outputs.folders.push_back({"--output", out, [this](const std::string& name) {
                                return name == SheetName(format) || IsFigureName(name, format);
                              }});
-  CheckOutputsDiffer(
-      {{"--object", object_path}, {"--plan", plan_path}, {"--hand", hand_path}}, outputs);
+  CheckOutputsDiffer({{"--object", object_path}, {"--plan", plan_path}, {"--hand", hand_path}},
+                     outputs);
   CheckOutputsWritable(outputs);
 }
 

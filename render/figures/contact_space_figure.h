@@ -32,7 +32,8 @@ class ContactSpaceFigures {
   /// @param entry  index of the entry: k for the k-th step.
   /// @returns the bytes of the file; nullopt if the step is not a switch that keeps a contact, or
   ///          if one of its grasps is on the border of force closure and in no set.
-  [[nodiscard]] std::optional<std::string> DrawSwitch(plan::EntryIndex entry, const FigureStyle& style);
+  [[nodiscard]] std::optional<std::string> DrawSwitch(plan::EntryIndex entry,
+                                                      const FigureStyle& style);
 
  private:
   const plan::Plan& plan_;

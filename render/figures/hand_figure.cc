@@ -112,7 +112,7 @@ bool IsOutline(const SurfaceBuffer& surfaces, double step, int x, int y, int x2,
   if (label == kNothing || label2 == kNothing) return label != label2;
   const float rise = surfaces.DepthAt(x2, y2) - surfaces.DepthAt(x, y);
   if (std::abs(rise) < step) return false;
-  // A steep surface rises at about the same rate beside the samples.
+  // A steep surface rises at about the same rate in front of and after the samples.
   const int dx = x2 - x, dy = y2 - y;
   const float before = surfaces.DepthAt(x, y) - surfaces.DepthAt(x - dx, y - dy);
   const float after = surfaces.DepthAt(x2 + dx, y2 + dy) - surfaces.DepthAt(x2, y2);
@@ -243,12 +243,12 @@ std::vector<std::pair<Color, std::vector<Polyline>>> FillsOf(const SurfaceBuffer
   for (const Color& color : colors) different.emplace(key(color), color);
   std::vector<std::pair<Color, std::vector<Polyline>>> fills;
   for (const auto& [wanted, color] : different) {
-    fills.emplace_back(color, OutlineOf(all.width(), all.height(), kSmallestArea,
-                                        [&, wanted = wanted](int x, int y) {
-                                          const int label = all.LabelAt(x, y);
-                                          return IsLink(label) &&
-                                                 key(colors[label - kFirstLink]) == wanted;
-                                        }));
+    fills.emplace_back(
+        color,
+        OutlineOf(all.width(), all.height(), kSmallestArea, [&, wanted = wanted](int x, int y) {
+          const int label = all.LabelAt(x, y);
+          return IsLink(label) && key(colors[label - kFirstLink]) == wanted;
+        }));
   }
   return fills;
 }

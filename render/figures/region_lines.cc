@@ -116,7 +116,8 @@ bool SampleSides::Has(const Sides& sides, const Vector2i& node, int direction) c
 
 void SampleSides::Set(const Vector2i& node, int direction, bool value, Sides& sides) const {
   const Vector2i next = Next(node, direction);
-  for (const auto& [at, along] : {std::pair(node, direction), std::pair(next, (direction + 2) % 4)}) {
+  for (const auto& [at, along] :
+       {std::pair(node, direction), std::pair(next, (direction + 2) % 4)}) {
     unsigned char& bits = sides[Index(at.x(), at.y())];
     const int bit = 1 << along;
     bits = static_cast<unsigned char>(value ? bits | bit : bits & ~bit);
@@ -127,8 +128,8 @@ int SampleSides::Degree(const Vector2i& node) const {
   return std::popcount(sides_[Index(node.x(), node.y())]);
 }
 
-/// Walk along the sides that are left, and remove them.
-/// @param through  whether to continue at junctions, up to a node without sides that are left.
+/// Walk along the remaining sides, and remove them.
+/// @param through  whether to continue at junctions, up to a node without remaining sides.
 SampleSides::Chain SampleSides::Walk(Vector2i node, int direction, bool through,
                                      Sides& left) const {
   Chain nodes = {node};

@@ -25,14 +25,15 @@ class SampleSides {
 
   /// Return the sides as lines with few points, in samples.
   ///
-  /// Lines end where three or more sides meet, after the removal of very short ones. They pass through the middles of sides, and are
-  /// simplified with a tolerance of kLineTolerance (Douglas and Peucker 1973).
+  /// Lines end where three or more sides meet, after the removal of very short ones. They pass
+  /// through the middles of sides, and are simplified with a tolerance of kLineTolerance (Douglas
+  /// and Peucker 1973).
   /// @param shortest  connected sets of sides with a smaller total length are omitted, and so are
   ///                  lines of less than a quarter of it with a free end, samples.
   [[nodiscard]] std::vector<Polyline> Trace(double shortest) const;
 
-  /// Return the sides as closed lines, likewise simplified. Every node must have an even number of
-  /// sides.
+  /// Return the sides as closed, smoothed and simplified lines. Every node must have an even number
+  /// of sides.
   [[nodiscard]] std::vector<Polyline> TraceLoops() const;
 
  private:
@@ -53,7 +54,7 @@ class SampleSides {
 };
 
 /// Tolerance of simplified lines, samples.
-inline constexpr double kLineTolerance = 0.7;
+inline constexpr double kLineTolerance = 1;
 
 /// Return the outlines of the samples that a predicate selects, as closed and simplified lines.
 /// Filled with the even-odd rule they cover these samples, except that ragged borders are smoothed.

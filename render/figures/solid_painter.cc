@@ -142,8 +142,7 @@ void SolidPainter::DrawMotion(const FingerGlyph& glyph) {
   }
 }
 
-std::vector<FingerMarker> SolidPainter::MarkersOf(
-    const std::vector<FingerGlyph>& fingers) const {
+std::vector<FingerMarker> SolidPainter::MarkersOf(const std::vector<FingerGlyph>& fingers) const {
   std::vector<FingerMarker> markers;
   for (const FingerGlyph& glyph : fingers) {
     if (!HasPath(glyph)) continue;
@@ -152,8 +151,7 @@ std::vector<FingerMarker> SolidPainter::MarkersOf(
   for (const FingerGlyph& glyph : fingers) {
     const MarkerStyle held = IsBehind(glyph) ? MarkerStyle::kPale : MarkerStyle::kFilled;
     const bool released = glyph.role == plan::FingerRole::kReleased;
-    markers.push_back({glyph.finger, camera_(glyph.contact),
-                       released ? MarkerStyle::kHollow : held,
+    markers.push_back({glyph.finger, camera_(glyph.contact), released ? MarkerStyle::kHollow : held,
                        glyph.role == plan::FingerRole::kPlaced});
   }
   EnlargeCovered(markers);

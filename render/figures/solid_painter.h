@@ -55,8 +55,7 @@ class SolidPainter {
   /// @param covered  further areas that numbers should not cover, points.
   void DrawNumbers(const std::vector<FingerGlyph>& fingers,
                    const std::vector<FingerMarker>& markers, const Eigen::Vector2d& size,
-                   std::span<const std::string> names = {},
-                   std::span<const Obstacle> covered = {});
+                   std::span<const std::string> names = {}, std::span<const Obstacle> covered = {});
 
  private:
   [[nodiscard]] LineParts Edges() const;

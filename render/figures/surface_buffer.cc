@@ -61,7 +61,7 @@ void SurfaceBuffer::Add(const ShadedMesh& mesh, int label,
   }
 }
 
-bool SurfaceBuffer::IsBesideStep(int x, int y, double step) const {
+bool SurfaceBuffer::IsAtStep(int x, int y, double step) const {
   const float depth = DepthAt(x, y);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
     const float other = DepthAt(x + dx, y + dy);
@@ -76,7 +76,7 @@ void SurfaceBuffer::RemoveSpecks(double step) {
   std::vector<Sample> filtered = samples_;
   for (int y = kReach; y < height_ - kReach; ++y) {
     for (int x = kReach; x < width_ - kReach; ++x) {
-      if (!IsBesideStep(x, y, step)) continue;
+      if (!IsAtStep(x, y, step)) continue;
       std::array<const Sample*, kWindow> window;
       int count = 0;
       for (int v = y - kReach; v <= y + kReach; ++v) {

@@ -29,7 +29,7 @@ class SurfaceBuffer {
            const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& place,
            const Eigen::Matrix3d& turn, double lift = 0);
 
-  /// Replace the samples beside steps of depth by the sample of median depth within two samples.
+  /// Replace the samples next to steps of depth by the sample of median depth within two samples.
   /// Specks and slits of a few samples disappear, for example where surfaces nearly coincide.
   /// @param step  smallest step of depth, samples.
   void RemoveSpecks(double step);
@@ -50,7 +50,7 @@ class SurfaceBuffer {
     std::array<signed char, 3> normal;
   };
 
-  [[nodiscard]] bool IsBesideStep(int x, int y, double step) const;
+  [[nodiscard]] bool IsAtStep(int x, int y, double step) const;
   void AddTriangle(const std::array<Eigen::Vector3d, 3>& corners,
                    const std::array<Eigen::Vector3d, 3>& normals, int label);
 

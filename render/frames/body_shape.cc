@@ -209,8 +209,7 @@ BodyShape MakeBodyShape(const object::Object& object, const BodyOptions& options
   BodyShape shape;
   const EdgeTriangles edges = TrianglesAtEdges(mesh);
   const bool curved = IsCurvedEverywhere(edges, normals, options.crease_angle);
-  shape.surface =
-      ShadeSmoothly(mesh, normals, curved ? kCurvedCreaseAngle : options.crease_angle);
+  shape.surface = ShadeSmoothly(mesh, normals, curved ? kCurvedCreaseAngle : options.crease_angle);
   shape.rays = RayTree(shape.surface);
   if (options.edges != EdgeStyle::kNone) AddEdges(mesh, edges, normals, options, curved, shape);
   return shape;
