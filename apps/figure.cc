@@ -341,10 +341,10 @@ std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object
 
 void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
   const std::vector<int> on_sheet = ParsePanels(panels, static_cast<int>(plan.steps.size()) + 1);
-  FigureFolder folder(out);
   ProgressLine progress(quiet);
   progress.Report("laying out the figures");
   const std::unique_ptr<render::FigurePanels> drawn = Panels(object, plan);
+  FigureFolder folder(out);
   const int count = drawn->count();
   const render::FigureStyle printed = Printed();
   for (plan::EntryIndex i{0}; i < count; ++i) {
