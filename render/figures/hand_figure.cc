@@ -30,6 +30,9 @@ constexpr int kSamplesAcross = 1600;
 /// Size of the image for which the camera is chosen. Its margins are in proportion.
 constexpr int kViewWidth = 1280, kViewHeight = 960;
 
+/// Margin above and below everything that is drawn, per width.
+constexpr double kMarginPerWidth = 0.03;
+
 constexpr int kSolidLabel = 0;
 constexpr int kFirstLink = 1;
 
@@ -198,9 +201,33 @@ HandPanels::HandPanels(const object::Polyhedron& solid, const plan::Plan& plan,
     captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry, names_));
     drawings_.push_back(DrawingOf(snapshots_[entry], meshes, options.body.crease_angle));
   }
+  ChooseRows();
 }
 
 HandPanels::~HandPanels() = default;
+
+void HandPanels::ChooseRows() {
+  Eigen::AlignedBox2d box;
+  for (const plan::Snapshot& snapshot : snapshots_) {
+    const Isometry3d pose = model_.frame.BodyPose(snapshot.X_WO);
+    for (const auto& corners : model_.body.surface.triangles) {
+      for (const Vector3d& p : corners) box.extend(camera_.Project(pose * p));
+    }
+    for (const FingerGlyph& glyph : model_.GlyphsOf(snapshot, /*free_fingers=*/false)) {
+      box.extend(camera_.Project(glyph.end));
+    }
+  }
+  for (const Drawing& drawing : drawings_) {
+    for (const auto& [color, areas] : drawing.fills) {
+      for (const Polyline& area : areas) {
+        for (const Vector2d& p : area) box.extend(p);
+      }
+    }
+  }
+  const double margin = kMarginPerWidth * camera_.width;
+  top_ = std::clamp(box.min().y() - margin, 0.0, camera_.height / 2.0);
+  bottom_ = std::clamp(box.max().y() + margin, camera_.height / 2.0, 1.0 * camera_.height);
+}
 
 namespace {
 
@@ -301,14 +328,15 @@ HandPanels::Drawing HandPanels::DrawingOf(const plan::Snapshot& snapshot,
 }
 
 double HandPanels::HeightFor(double width) const {
-  return width * camera_.height / camera_.width + kScaleBarSpace;
+  return width * (bottom_ - top_) / camera_.width + kScaleBarSpace;
 }
 
 PanelCamera HandPanels::CameraOf(double width) const {
   const double per_unit = width / camera_.width * camera_.PixelsPerUnit(Vector3d::Zero());
   const Vector2d middle = (camera_.axes.transpose() * camera_.position).head<2>();
-  const double height = width * camera_.height / camera_.width;
-  return {camera_.axes, per_unit, middle + Vector2d(-width, height) / (2 * per_unit)};
+  const double scale = width / camera_.width;
+  const Vector2d corner(-width / 2, scale * (camera_.height / 2.0 - top_));
+  return {camera_.axes, per_unit, middle + corner / per_unit};
 }
 
 std::vector<Vector2d> HandPanels::DrawBefore(cairo_t* cr, const plan::Snapshot& snapshot,
@@ -334,8 +362,12 @@ void HandPanels::Draw(cairo_t* cr, int index, double width, bool scale_bar) cons
   SolidPainter painter(cr, model_.body, camera.InFrame(pose));
   painter.DrawBody();
   painter.DrawVisibleEdges();
-  drawings_[index].Fill(cr, width / camera_.width);
-  drawings_[index].Stroke(cr, width / camera_.width);
+  const double scale = width / camera_.width;
+  cairo_save(cr);
+  cairo_translate(cr, 0, -scale * top_);
+  drawings_[index].Fill(cr, scale);
+  drawings_[index].Stroke(cr, scale);
+  cairo_restore(cr);
   for (const FingerGlyph& glyph : fingers) painter.DrawCone(glyph, model_.friction_angle);
   for (const FingerGlyph& glyph : fingers) painter.DrawMotion(glyph);
   std::vector<Obstacle> covered;

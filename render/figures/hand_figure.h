@@ -51,6 +51,8 @@ class HandPanels final : public FigurePanels {
   [[nodiscard]] Drawing DrawingOf(const plan::Snapshot& snapshot,
                                   const std::vector<ShadedMesh>& meshes, double crease_angle) const;
 
+  /// Choose the rows that show everything.
+  void ChooseRows();
   /// Return the projection to a panel.
   /// @param width  width of the panel, points.
   [[nodiscard]] PanelCamera CameraOf(double width) const;
@@ -65,6 +67,7 @@ class HandPanels final : public FigurePanels {
   FrameModel model_;
   Camera camera_;
   std::vector<Drawing> drawings_;
+  double top_ = 0, bottom_ = 0;  ///< rows of the camera's image that the panels show, pixels
 };
 
 }  // namespace regrasp::render

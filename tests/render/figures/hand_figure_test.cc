@@ -55,8 +55,7 @@ FigureHand MakeHand(const plan::Plan& plan) {
     };
     snapshot.links_W = {at(0, 0, -0.1), at(0.045, 0, 0.01), at(-0.045, 0, 0.01)};
     if (entry == 1) {
-      snapshot.X_WO_before =
-          Isometry3d(Eigen::AngleAxisd(Radians(30), Vector3d::UnitZ()));
+      snapshot.X_WO_before = Isometry3d(Eigen::AngleAxisd(Radians(30), Vector3d::UnitZ()));
     }
     hand.snapshots.push_back(snapshot);
   }

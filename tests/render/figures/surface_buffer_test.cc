@@ -21,7 +21,8 @@ ShadedMesh Square(double low, double high, double z) {
 }
 
 void Add(const ShadedMesh& mesh, int label, SurfaceBuffer& buffer, double lift = 0) {
-  buffer.Add(mesh, label, [](const Vector3d& p) { return p; }, Eigen::Matrix3d::Identity(), lift);
+  buffer.Add(
+      mesh, label, [](const Vector3d& p) { return p; }, Eigen::Matrix3d::Identity(), lift);
 }
 
 int CountLabel(const SurfaceBuffer& buffer, int label) {
