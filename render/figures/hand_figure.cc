@@ -261,6 +261,23 @@ class SurfacePlacer {
   double per_pixel_, per_unit_;
 };
 
+/// Add the links of a snapshot.
+/// @returns their fill colours.
+std::vector<Color> AddLinks(const FrameModel& model, const plan::Snapshot& snapshot,
+                            const std::vector<ShadedMesh>& meshes, const SurfacePlacer& placer,
+                            SurfaceBuffer& surfaces) {
+  const HandView& links = *model.options.hand;
+  std::vector<Color> colors;
+  for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+    Isometry3d pose = snapshot.links_W[i];
+    pose.translation() = model.frame.FromWorld(pose.translation());
+    placer.Add(meshes[i], kFirstLink + static_cast<int>(i), pose,
+               kLiftPerJoint * links[i].link.joints, surfaces);
+    colors.push_back(FillOf(links[i], snapshot));
+  }
+  return colors;
+}
+
 /// Return the visible areas of a hand by colour, in samples.
 /// @param colors  colours of the links.
 std::vector<std::pair<Color, std::vector<Polyline>>> FillsOf(const SurfaceBuffer& all,
@@ -288,15 +305,7 @@ HandPanels::Drawing HandPanels::DrawingOf(const plan::Snapshot& snapshot,
   const double per_pixel = static_cast<double>(kSamplesAcross) / camera_.width;
   const SurfacePlacer placer(camera_, per_pixel);
   SurfaceBuffer hand(kSamplesAcross, static_cast<int>(std::ceil(per_pixel * camera_.height)));
-  const HandView& links = *model_.options.hand;
-  std::vector<Color> colors;
-  for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
-    Isometry3d pose = snapshot.links_W[i];
-    pose.translation() = model_.frame.FromWorld(pose.translation());
-    placer.Add(meshes[i], kFirstLink + static_cast<int>(i), pose,
-               kLiftPerJoint * links[i].link.joints, hand);
-    colors.push_back(FillOf(links[i], snapshot));
-  }
+  const std::vector<Color> colors = AddLinks(model_, snapshot, meshes, placer, hand);
   SurfaceBuffer all = hand;
   hand.RemoveSpecks(kThinDepthStep * placer.per_unit());
   placer.Add(model_.body.surface, kSolidLabel, model_.frame.BodyPose(snapshot.X_WO), 0, all);
