@@ -23,14 +23,19 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
 #include "planner/plan/check.h"
 #include "planner/plan/plan_io.h"
+#include "planner/plan/projection.h"
 #include "render/figures/contact_space_figure.h"
+#include "render/figures/hand_figure.h"
 #include "render/figures/panel_sheet.h"
 #include "render/figures/plan_figure.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"
+#include "report/pictures/hand_picture.h"
 
 namespace {
 
@@ -64,6 +69,7 @@ class FigureFolder {
 struct FigureProgram {
   std::string object_path;
   std::string plan_path;
+  std::string hand_path;
   std::string out;
   std::string format = "svg";
   render::FigureStyle style;
@@ -84,10 +90,25 @@ struct FigureProgram {
   [[nodiscard]] object::ObjectFile ReadTold(const plan::Plan& plan) const;
   [[nodiscard]] plan::Plan Projected(const plan::Plan& plan, const object::Object& object) const;
   void CheckHasContactSpace(const plan::Plan& plan) const;
+  [[nodiscard]] render::FigureStyle Printed() const;
+  [[nodiscard]] std::unique_ptr<render::FigurePanels> Panels(const object::Object& object,
+                                                             const plan::Plan& plan) const;
   void WriteFigures(const object::Object& object, const plan::Plan& plan) const;
   void WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
                          FigureFolder& folder) const;
 };
+
+/// Return a parser of an installed font family.
+ListOption::Parser FamilyParser(std::string& family) {
+  return [&family](const std::string& name, const std::string& value) {
+    if (!render::IsInstalledFamily(value)) {
+      throw CLI::ValidationError(name, "font family \"" + value +
+                                           "\" not found; help: list the installed families with "
+                                           "fc-list : family");
+    }
+    family = value;
+  };
+}
 
 void FigureProgram::AddTo(CLI::App& app) {
   BeginGroup(app, "Input");
@@ -95,6 +116,8 @@ void FigureProgram::AddTo(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   app.add_option("--plan", plan_path, "Plan file")->required()->type_name("FILE");
+  app.add_option("--hand", hand_path, "Hand file, required for a plan with a hand")
+      ->type_name("FILE");
   AddScale(app, scale, "Metres per length unit of the object file. Must be that of the plan");
   ListOption("--allow")
       .Word("object-change", [this] { allow_object_change = true; })
@@ -106,25 +129,30 @@ void FigureProgram::AddTo(CLI::App& app) {
       .Values("svg, pdf or png",
               {ChoiceParser<std::string>(format, {{"svg", "svg"}, {"pdf", "pdf"}, {"png", "png"}})})
       .Word("gltf", [this] { gltf = true; })
-      .AddTo(app, "svg|pdf|png[,gltf]",
+      .Word("contact-space", [this] { contact_space = true; })
+      .AddTo(app, "svg|pdf|png[,gltf,contact-space]",
              "Format of the figures [default: svg]\n"
-             "gltf: also write each step as a scene in binary glTF 2.0, in metres");
+             "gltf: also write each step as a scene in binary glTF 2.0, in metres\n"
+             "contact-space: also draw the contact space and each switch in it. Requires a plan of "
+             "2-finger grasps");
   ListOption("--size")
       .Key("width", NumberParser(style.width_mm, kWidths))
       .Key("sheet", NumberParser(style.sheet_width_mm, kWidths))
       .Key("font", NumberParser(style.font_pt, kFontSizes))
+      .Key("family", FamilyParser(style.family))
+      .Key("captions", ChoiceParser<bool>(style.captions, {{"below", true}, {"none", false}}))
       .AddTo(app, "KEY=VALUE,…",
-             "Sizes of the figures [default: width=85,sheet=174,font=7.5]\n"
+             "Sizes and text of the figures "
+             "[default: width=85,sheet=174,font=7.5,family=sans-serif,captions=below]\n"
              "width=MM: width of the figure of a step\n"
              "sheet=MM: width of the sheet\n"
-             "font=PT: font size, with which lines and markers scale");
+             "font=PT: font size, with which lines and markers scale\n"
+             "family=NAME: font family, as in family=DejaVu Serif\n"
+             "captions=below|none: captions below the figures, or no captions");
   app.add_option("--panels", panels,
                  "Entries on the sheet. 0 is the initial grasp, k is step k, as in 0,2-4 "
                  "[default: all]")
       ->type_name("LIST");
-  app.add_flag("--contact-space", contact_space,
-               "Also draw the contact space and each switch in it. Requires a plan of 2-finger "
-               "grasps");
   AddView(app, solid.view);
   AddEdges(app, solid.body);
   BeginGroup(app, "Output");
@@ -132,17 +160,26 @@ void FigureProgram::AddTo(CLI::App& app) {
   AddQuiet(app, quiet);
   app.footer(
       "  figure --object polygon15.wkt --plan polygon15.json --output figures --format pdf\n"
-      "  figure --object cube.obj --plan cube.json --output figures --view 30,20\n");
+      "  figure --object cube.obj --plan cube.json --output figures --view 30,20\n"
+      "  figure --object cube.obj --plan turn.json --hand ring4.json --output figures\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
-  if (plan.hand) {
-    throw InputError("--plan: " + plan_path +
-                     ": expected a plan without a hand, found a plan for " + plan.hand->file +
-                     "; help: draw it with validate --hand FILE --output DIR");
+  if (plan.hand && hand_path.empty()) {
+    throw InputError("--plan: " + plan_path + ": a plan with a hand requires --hand; help: pass " +
+                     "--hand " + plan.hand->file);
+  }
+  if (!plan.hand && !hand_path.empty()) {
+    throw InputError("--hand: " + hand_path + ": expected a plan with a hand, found " + plan_path +
+                     " without a hand; help: omit --hand");
+  }
+  if (plan.hand && object.object->dimension() != 3) {
+    throw InputError("--plan: " + plan_path + ": a plan with a hand requires a solid, found the " +
+                     "planar object " + object_path);
   }
   if (contact_space && object.object->dimension() != 2) {
-    throw InputError("--contact-space requires a planar object, found the solid " + object_path);
+    throw InputError("--format contact-space: requires a planar object, found the solid " +
+                     object_path);
   }
   if (solid.view && object.object->dimension() == 2) {
     throw InputError("--view requires a solid, found the planar object " + object_path +
@@ -228,7 +265,7 @@ void FigureProgram::CheckHasContactSpace(const plan::Plan& plan) const {
                                 ? "its initial grasp"
                                 : "the grasp after step " + std::to_string(rest->entry);
   throw InputError(plan_path + ": " + entry + " has " + std::to_string(rest->contacts) +
-                   " contacts, but --contact-space draws plans of 2-finger grasps");
+                   " contacts, but --format contact-space requires plans of 2-finger grasps");
 }
 
 void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan::Plan& plan,
@@ -237,10 +274,10 @@ void FigureProgram::WriteContactSpace(const object::Polygon& polygon, const plan
   ProgressLine progress(quiet);
   progress.Report("contact space");
   render::ContactSpaceFigures figures(polygon, plan);
-  folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(FormatOf(format)));
+  folder.Write(std::string(kContactSpace) + "." + format, figures.DrawOverview(Printed()));
   for (plan::EntryIndex step{1}; step <= count; ++step) {
     progress.Report("contact space, step " + std::to_string(step) + " of " + std::to_string(count));
-    const auto bytes = figures.DrawSwitch(step, FormatOf(format));
+    const auto bytes = figures.DrawSwitch(step, Printed());
     if (!bytes) continue;
     folder.Write(std::string(kContactSpace) + "_" + EntryNumber(step) + "." + format, *bytes);
   }
@@ -275,15 +312,41 @@ std::string KindOf(const plan::Plan& plan, plan::EntryIndex entry) {
   return entry == 0 ? "hold" : plan::StepKind(plan::StepOf(plan, entry));
 }
 
-void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
-  const std::vector<int> on_sheet = ParsePanels(panels, static_cast<int>(plan.steps.size()) + 1);
-  FigureFolder folder(out);
-  ProgressLine progress(quiet);
-  progress.Report("laying out the figures");
-  const std::unique_ptr<render::FigurePanels> drawn = render::MakePanels(object, plan, solid);
-  const int count = drawn->count();
+render::FigureStyle FigureProgram::Printed() const {
   render::FigureStyle printed = style;
   printed.format = FormatOf(format);
+  return printed;
+}
+
+std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object& object,
+                                                            const plan::Plan& plan) const {
+  if (!plan.hand) return render::MakePanels(object, plan, solid);
+  const kinematics::HandFile file =
+      kinematics::HandOfPlan(kinematics::ReadHandFile(hand_path), plan);
+  if (file.hand.sha256 != plan.hand->sha256) {
+    throw InputError("--hand: expected " + DescribeFile(plan.hand->file, plan.hand->sha256) +
+                     ", found " + DescribeFile(hand_path, file.hand.sha256));
+  }
+  const report::HandPicture picture(file, plan, plan.scale * object.mass_properties().centroid);
+  render::FigureHand hand = {picture.view(), picture.FingerNames(), {}};
+  for (plan::EntryIndex i{0}; i <= std::ssize(plan.steps); ++i) {
+    plan::Fault none;
+    hand.snapshots.push_back(plan::MakePlannedSnapshot(plan, i, none, 0));
+    picture.MarkSwitch(i, hand.snapshots.back());
+    picture.Place(i, hand.snapshots.back(), none);
+  }
+  return std::make_unique<render::HandPanels>(dynamic_cast<const object::Polyhedron&>(object), plan,
+                                              hand, solid);
+}
+
+void FigureProgram::WriteFigures(const object::Object& object, const plan::Plan& plan) const {
+  const std::vector<int> on_sheet = ParsePanels(panels, static_cast<int>(plan.steps.size()) + 1);
+  ProgressLine progress(quiet);
+  progress.Report("laying out the figures");
+  const std::unique_ptr<render::FigurePanels> drawn = Panels(object, plan);
+  FigureFolder folder(out);
+  const int count = drawn->count();
+  const render::FigureStyle printed = Printed();
   for (plan::EntryIndex i{0}; i < count; ++i) {
     progress.Report("figure " + std::to_string(i + 1) + " of " + std::to_string(count));
     folder.Write(EntryFileName(i, KindOf(plan, i), format),
@@ -308,7 +371,8 @@ void FigureProgram::CheckOut() const {
   outputs.folders.push_back({"--output", out, [this](const std::string& name) {
                                return name == SheetName(format) || IsFigureName(name, format);
                              }});
-  CheckOutputsDiffer({{"--object", object_path}, {"--plan", plan_path}}, outputs);
+  CheckOutputsDiffer({{"--object", object_path}, {"--plan", plan_path}, {"--hand", hand_path}},
+                     outputs);
   CheckOutputsWritable(outputs);
 }
 

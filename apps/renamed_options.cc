@@ -76,6 +76,7 @@ constexpr std::array kRenamings = std::to_array<Renaming>({
     {"figure", "--sheet-width", "--size", "sheet=*"},
     {"figure", "--font-size", "--size", "font=*"},
     {"figure", "--export-gltf", "--format", "gltf"},
+    {"figure", "--contact-space", "--format", "contact-space"},
 });
 
 constexpr char kContact[] = "--contact";

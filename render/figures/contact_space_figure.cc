@@ -228,9 +228,9 @@ void Overview::Draw(cairo_t* cr) const {
 
 std::string DrawContactSpace(const contour::Boundary& boundary, const ContactSpaceMap& map,
                              const AxisUnit& unit, const std::string& caption,
-                             FigureFormat format) {
+                             const FigureStyle& style) {
   const Overview overview(boundary, map, unit);
-  return DrawWithCaption(format, {overview.width(), overview.height()}, caption,
+  return DrawWithCaption(style, {overview.width(), overview.height()}, caption,
                          [&](cairo_t* cr) { overview.Draw(cr); });
 }
 
@@ -269,21 +269,21 @@ ContactSpaceFigures::ContactSpaceFigures(const object::Polygon& polygon, const p
       names_(NameSets(geometry_, track_)),
       unit_(UnitOfAxes(graph_.boundary(), plan.scale)) {}
 
-std::string ContactSpaceFigures::DrawOverview(FigureFormat format) {
+std::string ContactSpaceFigures::DrawOverview(const FigureStyle& style) {
   const ContactSpaceMap map = MapContactSpace(geometry_, track_);
   return DrawContactSpace(graph_.boundary(), map, unit_, OverviewCaption(map, plan_.friction_angle),
-                          format);
+                          style);
 }
 
 std::optional<std::string> ContactSpaceFigures::DrawSwitch(plan::EntryIndex entry,
-                                                           FigureFormat format) {
+                                                           const FigureStyle& style) {
   const auto step = DescribeContactSwitch(geometry_, track_, entry, names_);
   if (!step) return std::nullopt;
   const int axis = *track_[entry].shared_axis;
   const FingerIndex finger = track_[entry].grasp[axis].finger;
   const double place = step->sides[0].grasp.y();
   return DrawContactSwitch(graph_.boundary(), *step, unit_,
-                           SwitchCaption(*step, plan_, finger, place), format);
+                           SwitchCaption(*step, plan_, finger, place), style);
 }
 
 }  // namespace regrasp::render

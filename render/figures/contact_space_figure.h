@@ -26,13 +26,14 @@ class ContactSpaceFigures {
   ContactSpaceFigures(const ContactSpaceFigures&) = delete;
   ContactSpaceFigures& operator=(const ContactSpaceFigures&) = delete;
 
-  [[nodiscard]] std::string DrawOverview(FigureFormat format);
+  [[nodiscard]] std::string DrawOverview(const FigureStyle& style);
 
   /// Draw a switch.
   /// @param entry  index of the entry: k for the k-th step.
   /// @returns the bytes of the file; nullopt if the step is not a switch that keeps a contact, or
   ///          if one of its grasps is on the border of force closure and in no set.
-  [[nodiscard]] std::optional<std::string> DrawSwitch(plan::EntryIndex entry, FigureFormat format);
+  [[nodiscard]] std::optional<std::string> DrawSwitch(plan::EntryIndex entry,
+                                                      const FigureStyle& style);
 
  private:
   const plan::Plan& plan_;
@@ -58,6 +59,6 @@ class ContactSpaceFigures {
 /// @throws EnvironmentError  if Cairo fails.
 [[nodiscard]] std::string DrawContactSpace(const contour::Boundary& boundary,
                                            const ContactSpaceMap& map, const AxisUnit& unit,
-                                           const std::string& caption, FigureFormat format);
+                                           const std::string& caption, const FigureStyle& style);
 
 }  // namespace regrasp::render

@@ -231,9 +231,9 @@ SwitchLayout LayOutSwitch(const ContactSwitch& step) {
 
 std::string DrawContactSwitch(const contour::Boundary& boundary, const ContactSwitch& step,
                               const AxisUnit& unit, const std::string& caption,
-                              FigureFormat format) {
+                              const FigureStyle& style) {
   const SwitchLayout layout = LayOutSwitch(step);
-  return DrawWithCaption(format, {kTwoColumnWidth, layout.height}, caption,
+  return DrawWithCaption(style, {kTwoColumnWidth, layout.height}, caption,
                          [&](cairo_t* cr) { DrawSwitch(cr, boundary, step, layout, unit); });
 }
 

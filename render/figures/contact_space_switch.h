@@ -68,6 +68,6 @@ struct SwitchLayout {
 /// @throws EnvironmentError  if Cairo fails.
 [[nodiscard]] std::string DrawContactSwitch(const contour::Boundary& boundary,
                                             const ContactSwitch& step, const AxisUnit& unit,
-                                            const std::string& caption, FigureFormat format);
+                                            const std::string& caption, const FigureStyle& style);
 
 }  // namespace regrasp::render

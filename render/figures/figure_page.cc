@@ -1,5 +1,6 @@
 #include "render/figures/figure_page.h"
 
+#include <cairo-ft.h>
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 
@@ -9,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -41,6 +43,24 @@ void Require(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw EnvironmentError(std::string("the figure cannot be drawn: ") +
                          cairo_status_to_string(status));
+}
+
+/// Key of the font family of a context.
+constexpr cairo_user_data_key_t kFamilyKey = {};
+
+/// Default family. Frames have another name of the same font (SelectFont).
+constexpr char kDefaultFamily[] = "sans";
+
+void SetFamily(cairo_t* cr, const std::string& family) {
+  const auto free = [](void* text) { delete static_cast<std::string*>(text); };
+  auto kept = std::make_unique<std::string>(family.empty() ? kDefaultFamily : family);
+  Require(cairo_set_user_data(cr, &kFamilyKey, kept.get(), free));
+  static_cast<void>(kept.release());  // the context owns it
+}
+
+const char* FamilyOf(cairo_t* cr) {
+  const auto* family = static_cast<std::string*>(cairo_get_user_data(cr, &kFamilyKey));
+  return family != nullptr ? family->c_str() : kDefaultFamily;
 }
 
 /// Remove the surface name from an SVG. Cairo numbers surfaces over the life of the process.
@@ -81,13 +101,15 @@ cairo_surface_t* FigurePage::MakeSurface(double width, double height) {
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels(width), pixels(height));
 }
 
-FigurePage::FigurePage(FigureFormat format, double width, double height, double magnification)
+FigurePage::FigurePage(FigureFormat format, double width, double height, double magnification,
+                       const std::string& family)
     : format_(format),
       bytes_(std::make_unique<std::string>()),
       surface_(MakeSurface(magnification * width, magnification * height)),
       context_(cairo_create(surface_.get())) {
   cairo_t* cr = context_.get();
   Require(cairo_status(cr));
+  SetFamily(cr, family);
   cairo_scale(cr, scale_ * magnification, scale_ * magnification);
   cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_paint(cr);
@@ -148,10 +170,17 @@ constexpr double kLeaderStart =
 constexpr double kLeaderEnd =
     3.6;  ///< distance of its end from the contact, outside the marker, points
 
-void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
+/// Radius of a name per width of its text.
+constexpr double kWideName = 0.45;
+
+/// @param width  width of the name, points.
+void DrawLeader(cairo_t* cr, const Vector2d& name, double width, const Vector2d& owner) {
   const Vector2d direction = owner - name;
-  if (direction.norm() < kBeside * kNumberRadius) return;
-  const Vector2d from = name + kLeaderStart * kNumberRadius * direction.normalized();
+  // Names are wider than high.
+  const double across = std::abs(direction.x()) / std::max(direction.norm(), kNumberRadius);
+  const double radius = std::max(kNumberRadius, across * width / 2);
+  if (direction.norm() < radius + (kBeside - 1) * kNumberRadius) return;
+  const Vector2d from = name + kLeaderStart * radius * direction.normalized();
   const Vector2d to = owner - kLeaderEnd * direction.normalized();
   SetColor(cr, kWhite);
   StrokeLine(cr, from, to, kLeaderWidth + 2 * kLeaderHalo);
@@ -164,9 +193,17 @@ void DrawLeader(cairo_t* cr, const Vector2d& name, const Vector2d& owner) {
 std::vector<Vector2d> DrawNumbers(cairo_t* cr, std::span<const std::string> names,
                                   std::span<const LabelAnchor> anchors,
                                   std::span<const Obstacle> obstacles, const Vector2d& panel) {
+  std::vector<double> widths;
+  double radius = kNumberRadius;
+  for (const std::string& name : names) {
+    widths.push_back(MarkWidth(cr, name));
+    radius = std::max(radius, kWideName * widths.back());
+  }
   std::vector<Vector2d> centres = PlaceLabels(
-      anchors, obstacles, kNumberRadius, static_cast<int>(panel.x()), static_cast<int>(panel.y()));
-  for (std::size_t i = 0; i < names.size(); ++i) DrawLeader(cr, centres[i], anchors[i].Owner());
+      anchors, obstacles, radius, static_cast<int>(panel.x()), static_cast<int>(panel.y()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    DrawLeader(cr, centres[i], widths[i], anchors[i].Owner());
+  }
   for (std::size_t i = 0; i < names.size(); ++i) DrawMark(cr, names[i], centres[i]);
   return centres;
 }
@@ -178,7 +215,7 @@ constexpr char kClauseEnd = ';';
 
 /// Set the font of all pages. It is unhinted, so that SVG, PDF and PNG have the same layout.
 void SetFont(cairo_t* cr, double size, bool bold) {
-  SelectFont(cr, size, bold, "sans");
+  SelectFont(cr, size, bold, FamilyOf(cr));
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -217,9 +254,30 @@ std::vector<std::string> Words(const std::string& clause) {
 
 }  // namespace
 
-std::vector<std::string> WrapCaption(const std::string& caption, double width) {
+bool IsInstalledFamily(const std::string& family) {
+  constexpr std::array<std::string_view, 8> kGeneric = {
+      "sans", "sans-serif", "serif", "monospace", "cursive", "fantasy", "system-ui", "emoji"};
+  std::string name = family;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (std::ranges::find(kGeneric, name) != kGeneric.end()) return true;
   const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
   const CairoContext context(cairo_create(surface.get()));
+  SetFamily(context.get(), family);
+  SetFont(context.get(), kCaptionFont, /*bold=*/false);
+  cairo_scaled_font_t* font = cairo_get_scaled_font(context.get());
+  const auto* face = cairo_ft_scaled_font_lock_face(font);
+  // Another family replaces one that is not installed.
+  std::string found = face != nullptr && face->family_name != nullptr ? face->family_name : "";
+  cairo_ft_scaled_font_unlock_face(font);
+  std::ranges::transform(found, found.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name == found;
+}
+
+std::vector<std::string> WrapCaption(const std::string& caption, double width,
+                                     const std::string& family) {
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  const CairoContext context(cairo_create(surface.get()));
+  SetFamily(context.get(), family);
   SetFont(context.get(), kCaptionFont, /*bold=*/false);
   const auto fits = [&](const std::string& text) {
     return TextWidth(context.get(), text) <= width;
@@ -253,11 +311,13 @@ void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, d
   }
 }
 
-std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+std::string DrawWithCaption(const FigureStyle& style, const Eigen::Vector2d& size,
                             const std::string& caption, const std::function<void(cairo_t*)>& draw,
                             double magnification) {
-  const std::vector<std::string> lines = WrapCaption(caption, size.x());
-  FigurePage page(format, size.x(), size.y() + CaptionHeight(lines.size()), magnification);
+  const std::vector<std::string> lines =
+      style.captions ? WrapCaption(caption, size.x(), style.family) : std::vector<std::string>();
+  FigurePage page(style.format, size.x(), size.y() + CaptionHeight(lines.size()), magnification,
+                  style.family);
   draw(page.context());
   DrawCaption(page.context(), lines, size.x() / 2, size.y());
   return page.Finish();
@@ -277,6 +337,11 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
   cairo_move_to(cr, left, base.y());
   cairo_show_text(cr, text.c_str());
   cairo_new_path(cr);
+}
+
+double MarkWidth(cairo_t* cr, const std::string& text) {
+  SetFont(cr, kNumberFont, /*bold=*/true);
+  return TextWidth(cr, text);
 }
 
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre) {

@@ -26,8 +26,10 @@ class FigurePage {
   /// @param width, height  size in points, positive. A PNG has 300 dots per inch, or fewer if a
   ///               side exceeds Cairo's limit.
   /// @param magnification  scale factor of everything in the file, including text and lines.
+  /// @param family  font family of all text; empty for the default one.
   /// @throws EnvironmentError  if Cairo cannot create the page.
-  FigurePage(FigureFormat format, double width, double height, double magnification = 1);
+  FigurePage(FigureFormat format, double width, double height, double magnification = 1,
+             const std::string& family = {});
 
   [[nodiscard]] cairo_t* context() const { return context_.get(); }
 
@@ -79,7 +81,9 @@ inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 ///
 /// Lines break after semicolons, or between words if necessary. Numbers stay with the preceding
 /// word.
-[[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width);
+/// @param family  font family; empty for the default one.
+[[nodiscard]] std::vector<std::string> WrapCaption(const std::string& caption, double width,
+                                                   const std::string& family = {});
 
 /// Return the height of a caption with the space below it, points.
 [[nodiscard]] inline double CaptionHeight(std::size_t lines) {
@@ -89,11 +93,12 @@ inline constexpr double kLineHeight = 1.25 * kCaptionFont;
 /// Draw lines centred at x, the first one below `top`.
 void DrawCaption(cairo_t* cr, const std::vector<std::string>& lines, double x, double top);
 
-/// Draw a figure with a caption below it.
+/// Draw a figure with its caption below it, unless the style has no captions.
+/// @param style  format, font family and captions.
 /// @param size  size of the drawing, points.
 /// @param magnification  magnification of the page (FigurePage).
 /// @returns the bytes of the file.
-[[nodiscard]] std::string DrawWithCaption(FigureFormat format, const Eigen::Vector2d& size,
+[[nodiscard]] std::string DrawWithCaption(const FigureStyle& style, const Eigen::Vector2d& size,
                                           const std::string& caption,
                                           const std::function<void(cairo_t*)>& draw,
                                           double magnification = 1);
@@ -107,6 +112,9 @@ void DrawLabel(cairo_t* cr, const std::string& text, const Eigen::Vector2d& base
 
 /// Return the width of a text of an axis, points.
 [[nodiscard]] double LabelWidth(cairo_t* cr, const std::string& text);
+
+/// Return the width of a bold name or number, points.
+[[nodiscard]] double MarkWidth(cairo_t* cr, const std::string& text);
 
 /// Draw a bold name or number, centred, with a white halo.
 void DrawMark(cairo_t* cr, const std::string& text, const Eigen::Vector2d& centre);

@@ -71,13 +71,13 @@ double LayoutWidth(double width_mm, const FigureStyle& style) {
 
 using Lines = std::vector<std::string>;
 
-void DrawPanel(cairo_t* cr, const FigurePanels& panels, int index, double width, double left,
-               double top) {
+void DrawPanel(cairo_t* cr, const FigurePanels& panels, int index, double width,
+               const Eigen::Vector2d& corner, bool scale_bar) {
   cairo_save(cr);
-  cairo_translate(cr, left, top);
+  cairo_translate(cr, corner.x(), corner.y());
   SetBox(cr, {0, 0}, {width, panels.HeightFor(width)});
   cairo_clip(cr);
-  panels.Draw(cr, index, width);
+  panels.Draw(cr, index, width, scale_bar);
   cairo_restore(cr);
 }
 
@@ -108,7 +108,9 @@ SheetLayout LayOutIn(int columns, const FigurePanels& panels, std::span<const in
   layout.panel_width = std::min(width, LayoutWidth(style.width_mm, style));
   layout.panel_height = panels.HeightFor(layout.panel_width);
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    layout.captions.push_back(WrapCaption(panels.caption(indices[i]), layout.panel_width));
+    layout.captions.push_back(
+        style.captions ? WrapCaption(panels.caption(indices[i]), layout.panel_width, style.family)
+                       : Lines());
     if (i % columns == 0) layout.most_lines.push_back(0);
     layout.most_lines.back() = std::max(layout.most_lines.back(), layout.captions.back().size());
   }
@@ -138,22 +140,24 @@ int SheetColumns(int count) {
 
 std::string DrawStepFigure(const FigurePanels& panels, int index, const FigureStyle& style) {
   const double width = LayoutWidth(style.width_mm, style);
-  const auto draw = [&](cairo_t* cr) { DrawPanel(cr, panels, index, width, 0, 0); };
-  return DrawWithCaption(style.format, {width, panels.HeightFor(width)}, panels.caption(index),
-                         draw, MagnificationOf(style));
+  const auto draw = [&](cairo_t* cr) { DrawPanel(cr, panels, index, width, {0, 0}, true); };
+  return DrawWithCaption(style, {width, panels.HeightFor(width)}, panels.caption(index), draw,
+                         MagnificationOf(style));
 }
 
 std::string DrawSheet(const FigurePanels& panels, std::span<const int> indices,
                       const FigureStyle& style) {
   const SheetLayout layout = LayOut(panels, indices, style);
-  FigurePage page(style.format, layout.width(), layout.height(), MagnificationOf(style));
+  FigurePage page(style.format, layout.width(), layout.height(), MagnificationOf(style),
+                  style.family);
   double top = 0;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const std::size_t column = i % layout.columns;
     const std::size_t row = i / layout.columns;
     if (row > 0 && column == 0) top += layout.RowHeight(row - 1);
     const double left = static_cast<double>(column) * (layout.panel_width + kGap);
-    DrawPanel(page.context(), panels, indices[i], layout.panel_width, left, top);
+    DrawPanel(page.context(), panels, indices[i], layout.panel_width, {left, top},
+              i + 1 == indices.size());
     DrawCaption(page.context(), layout.captions[i], left + layout.panel_width / 2,
                 top + layout.panel_height);
   }

@@ -48,7 +48,8 @@ class FigurePanels {
   /// Return the height of a panel for a width, points.
   [[nodiscard]] virtual double HeightFor(double width) const = 0;
   /// Draw a panel from (0, 0) to (width, HeightFor(width)), with clipping.
-  virtual void Draw(cairo_t* cr, int index, double width) const = 0;
+  /// @param scale_bar  whether to draw the scale bar. All panels have one scale.
+  virtual void Draw(cairo_t* cr, int index, double width, bool scale_bar = true) const = 0;
 
  protected:
   FigurePanels() = default;
@@ -62,7 +63,13 @@ struct FigureStyle {
   double width_mm = 85;         ///< width of the figure of one step: a column of a journal
   double sheet_width_mm = 174;  ///< width of a sheet: two columns
   double font_pt = 7.5;         ///< font size of captions and numbers
+  std::string family = {};      ///< font family; empty for the default one
+  bool captions = true;         ///< whether captions are below the panels
 };
+
+/// Return whether a font family is installed. The generic families (serif, sans-serif, monospace
+/// and so on) always are.
+[[nodiscard]] bool IsInstalledFamily(const std::string& family);
 
 /// Draw a panel with its caption below.
 /// @returns the bytes of the file.
@@ -70,7 +77,7 @@ struct FigureStyle {
 [[nodiscard]] std::string DrawStepFigure(const FigurePanels& panels, int index,
                                          const FigureStyle& style);
 
-/// Draw a sheet of panels in rows.
+/// Draw a sheet of panels in rows. Its last panel has the scale bar.
 ///
 /// Sheets of low panels have fewer columns. More than 24 panels make the sheet wider instead of
 /// reducing panels.

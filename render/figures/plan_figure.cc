@@ -145,7 +145,7 @@ double PlanPanels::HeightFor(double width) const {
   return FitView(polygon_, diagrams_, width).height + kScaleBarSpace;
 }
 
-void PlanPanels::Draw(cairo_t* cr, int index, double width) const {
+void PlanPanels::Draw(cairo_t* cr, int index, double width, bool scale_bar) const {
   const PanelView view = FitView(polygon_, diagrams_, width);
   const StepDiagram& diagram = diagrams_[index];
   AddPolygon(cr, polygon_, view);
@@ -158,6 +158,7 @@ void PlanPanels::Draw(cairo_t* cr, int index, double width) const {
   DrawForceLines(cr, diagram.grasp, view);
   DrawFingers(cr, polygon_, diagram, view);
   DrawFocusPoint(cr, diagram.grasp, view);
+  if (!scale_bar) return;
   DrawScaleBar(cr, {width, view.height + kScaleBarSpace}, view.scale / metres_per_unit_);
 }
 

@@ -66,7 +66,7 @@ class PlanPanels final : public FigurePanels {
   [[nodiscard]] int count() const override { return static_cast<int>(diagrams_.size()); }
   [[nodiscard]] std::string caption(int index) const override { return diagrams_[index].caption; }
   [[nodiscard]] double HeightFor(double width) const override;
-  void Draw(cairo_t* cr, int index, double width) const override;
+  void Draw(cairo_t* cr, int index, double width, bool scale_bar = true) const override;
 
  private:
   const object::Polygon& polygon_;

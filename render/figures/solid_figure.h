@@ -63,7 +63,7 @@ class SolidPanels final : public FigurePanels {
   [[nodiscard]] int count() const override { return static_cast<int>(fingers_.size()); }
   [[nodiscard]] std::string caption(int index) const override { return captions_[index]; }
   [[nodiscard]] double HeightFor(double width) const override;
-  void Draw(cairo_t* cr, int index, double width) const override;
+  void Draw(cairo_t* cr, int index, double width, bool scale_bar = true) const override;
 
  private:
   NormalizedFrame frame_;

@@ -25,6 +25,10 @@ constexpr double kTop = 1e-3;
 /// Longest total length of a tree of creases that is removed, in diameters.
 constexpr double kLongestStrayCrease = 0.3;
 
+/// Crease angle for the shading of surfaces that are curved everywhere. A coarse scan bends by more
+/// than the usual angle where its original is smooth.
+constexpr double kCurvedCreaseAngle = Radians(85);
+
 struct IndexedMesh {
   std::vector<Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< vertex indices, counter-clockwise from outside
@@ -137,43 +141,56 @@ std::vector<std::pair<int, int>> RemoveStrayCreases(
   return kept;
 }
 
-/// Return whether a surface is curved nearly everywhere, like a scan. Its few sharp edges are
-/// accidents of the triangulation and would look like scratches. A CAD model has many edges within
-/// its planar faces, or bends sharply at most of its edges.
-/// @param creases, folds, edges  numbers of sharp edges, of edges at which the surface bends, and
-/// of
-///                               all edges.
-bool IsCurvedEverywhere(std::size_t creases, std::size_t folds, std::size_t edges) {
-  constexpr double kLeastBendShare = 0.9, kLeastCreaseShare = 0.25;
-  return static_cast<double>(folds) > kLeastBendShare * static_cast<double>(edges) &&
-         static_cast<double>(creases) < kLeastCreaseShare * static_cast<double>(folds);
-}
+/// Triangles at each edge, by the indices of its ends.
+using EdgeTriangles = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 
-void AddEdges(const IndexedMesh& mesh, const std::vector<Vector3d>& normals,
-              const BodyOptions& options, BodyShape& shape) {
-  std::map<std::pair<int, int>, std::vector<std::size_t>> triangles_of_edge;
+EdgeTriangles TrianglesAtEdges(const IndexedMesh& mesh) {
+  EdgeTriangles triangles_of_edge;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
       triangles_of_edge[edge].push_back(t);
     }
   }
+  return triangles_of_edge;
+}
+
+/// Return whether a surface is curved nearly everywhere, like a scan. Its few sharp edges are
+/// accidents of the triangulation and would look like scratches. A CAD model has many edges within
+/// its planar faces, or bends sharply at most of its edges.
+bool IsCurvedEverywhere(const EdgeTriangles& edges, const std::vector<Vector3d>& normals,
+                        double crease_angle) {
+  constexpr double kLeastBendShare = 0.9, kLeastCreaseShare = 0.25;
+  std::size_t inner = 0, folds = 0, creases = 0;
+  for (const auto& [edge, triangles] : edges) {
+    const double angle = AngleAt(triangles, normals);
+    const bool has_two = triangles.size() == 2;
+    if (has_two) ++inner;
+    if (has_two && angle > object::kCoplanarAngle) ++folds;
+    if (angle > crease_angle) ++creases;
+  }
+  return static_cast<double>(folds) > kLeastBendShare * static_cast<double>(inner) &&
+         static_cast<double>(creases) < kLeastCreaseShare * static_cast<double>(folds);
+}
+
+/// @param curved  whether the surface is curved everywhere (IsCurvedEverywhere).
+void AddEdges(const IndexedMesh& mesh, const EdgeTriangles& edges,
+              const std::vector<Vector3d>& normals, const BodyOptions& options, bool curved,
+              BodyShape& shape) {
   const bool all = options.edges == EdgeStyle::kAll;
   const double least = all ? object::kCoplanarAngle : options.crease_angle;
   const auto ends = [&](const std::pair<int, int>& edge) {
     return std::array<Vector3d, 2>{mesh.vertices[edge.first], mesh.vertices[edge.second]};
   };
   std::vector<std::pair<int, int>> creases;
-  std::size_t inner = 0;  // edges between two triangles
-  for (const auto& [edge, triangles] : triangles_of_edge) {
-    if (triangles.size() == 2) ++inner;
+  for (const auto& [edge, triangles] : edges) {
     const double angle = AngleAt(triangles, normals);
     if (angle > least) creases.push_back(edge);
     if (angle > object::kCoplanarAngle && triangles.size() == 2) {
       shape.folds.push_back({ends(edge), {normals[triangles[0]], normals[triangles[1]]}});
     }
   }
-  if (!all && IsCurvedEverywhere(creases.size(), shape.folds.size(), inner)) return;
+  if (!all && curved) return;
   for (const auto& edge : all ? creases : RemoveStrayCreases(mesh, creases)) {
     shape.edges.push_back(ends(edge));
   }
@@ -190,9 +207,11 @@ BodyShape MakeBodyShape(const object::Object& object, const BodyOptions& options
   }
   const std::vector<Vector3d> normals = UnitNormals(mesh);
   BodyShape shape;
-  shape.surface = ShadeSmoothly(mesh, normals, options.crease_angle);
+  const EdgeTriangles edges = TrianglesAtEdges(mesh);
+  const bool curved = IsCurvedEverywhere(edges, normals, options.crease_angle);
+  shape.surface = ShadeSmoothly(mesh, normals, curved ? kCurvedCreaseAngle : options.crease_angle);
   shape.rays = RayTree(shape.surface);
-  if (options.edges != EdgeStyle::kNone) AddEdges(mesh, normals, options, shape);
+  if (options.edges != EdgeStyle::kNone) AddEdges(mesh, edges, normals, options, curved, shape);
   return shape;
 }
 

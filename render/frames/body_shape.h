@@ -28,7 +28,8 @@ struct Fold {
 };
 
 /// Drawable parts of an object: its exact surface with smooth shading up to creases, its edges, and
-/// the folds that can be part of its outline.
+/// the folds that can be part of its outline. A surface that is curved nearly everywhere, like a
+/// scan, has smooth shading throughout.
 struct BodyShape {
   ShadedMesh surface;
   RayTree rays;  ///< ray queries of the surface

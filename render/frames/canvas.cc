@@ -1,9 +1,11 @@
 #include "render/frames/canvas.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "render/frames/offscreen_context.h"
@@ -94,6 +96,9 @@ void DrawWithSolid(const ShapePainter& painter, const Drawing& drawing) {
 void AddVeil(const ShapePainter& painter, const Veil& veil) {
   SetMask(false, true);
   gl().Clear(GL_COLOR_BUFFER_BIT);
+  // The shapes hide nearly all of the rims, which need no colours there.
+  SetMask(false, false);
+  for (const Shape& shape : veil.shapes) painter.Draw(shape);
   SetMask(true, true);
   for (const Shape& shape : veil.rims) painter.Draw(shape);
   for (const Shape& shape : veil.shapes) painter.Draw(shape);
@@ -139,10 +144,50 @@ struct SampleBand {
   int width, top, rows, factor;
 };
 
+/// Columns and rows of samples: the first ones, and those after the last.
+struct SampleBox {
+  int left, bottom, right, top;
+  [[nodiscard]] bool empty() const { return left >= right || bottom >= top; }
+};
+
+/// Return the smallest box that contains all samples whose alpha is not 0.
+SampleBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band) {
+  SampleBox box = {band.width, band.rows, 0, 0};
+  for (int y = 0; y < band.rows; ++y) {
+    const unsigned char* row = samples.data() + std::size_t{4} * band.width * y;
+    int left = 0;
+    while (left < band.width && row[4 * left + 3] == 0) ++left;
+    if (left == band.width) continue;
+    int right = band.width;
+    while (row[4 * right - 1] == 0) --right;
+    box = {std::min(box.left, left), std::min(box.bottom, y), std::max(box.right, right), y + 1};
+  }
+  return box;
+}
+
+/// Blend two channels of a sample, each in the lower byte of half a word, rounded to the nearest.
+std::uint32_t MixPair(std::uint32_t color, std::uint32_t sample, std::uint32_t alpha) {
+  // For 0 ≤ x ≤ 255², round(x / 255) = (t + t / 256) / 256 with t = x + 128.
+  constexpr std::uint32_t kPair = 0x00ff00ff, kHalf = 0x00800080;
+  const std::uint32_t t = color * alpha + sample * (kFullAlpha - alpha) + kHalf;
+  return ((t + ((t >> 8) & kPair)) >> 8) & kPair;
+}
+
+/// Lay a colour over a sample, whose alpha changes too.
 void Lay(const unsigned char* color, int alpha, unsigned char* sample) {
-  for (int c = 0; c < 3; ++c) {
-    const int mixed = color[c] * alpha + sample[c] * (kFullAlpha - alpha);
-    sample[c] = static_cast<unsigned char>((mixed + kFullAlpha / 2) / kFullAlpha);
+  constexpr std::uint32_t kPair = 0x00ff00ff;
+  std::uint32_t over = 0, below = 0;
+  std::memcpy(&over, color, sizeof(over));
+  std::memcpy(&below, sample, sizeof(below));
+  const std::uint32_t mixed = MixPair(over & kPair, below & kPair, alpha) |
+                              MixPair((over >> 8) & kPair, (below >> 8) & kPair, alpha) << 8;
+  std::memcpy(sample, &mixed, sizeof(mixed));
+}
+
+/// Lay an image with its own alpha over samples.
+void LayVisible(const std::vector<unsigned char>& image, std::vector<unsigned char>& samples) {
+  for (std::size_t i = 0; i < samples.size(); i += 4) {
+    if (image[i + 3] != 0) Lay(&image[i], image[i + 3], &samples[i]);
   }
 }
 
@@ -208,27 +253,47 @@ class Canvas::Impl {
  private:
   /// Return a copy of the present samples.
   [[nodiscard]] std::vector<unsigned char> CopySamples(const SampleBand& band) const {
+    std::vector<unsigned char> copy;
+    CopySamples(band, copy);
+    return copy;
+  }
+  /// Copy the present samples to a buffer, whose memory is used again.
+  void CopySamples(const SampleBand& band, std::vector<unsigned char>& copy) const {
     const unsigned char* seen = context_.pixels().data();
-    return {seen, seen + std::size_t{4} * band.width * band.rows};
+    copy.assign(seen, seen + std::size_t{4} * band.width * band.rows);
   }
 
   /// Compose the samples of a drawing with a solid.
-  std::vector<unsigned char> ComposeSolid(const ShapePainter& painter, const Drawing& drawing,
-                                          const SampleBand& band) const {
-    DrawXray(painter, drawing);
-    const std::vector<unsigned char> xray = CopySamples(band);
+  const std::vector<unsigned char>& ComposeSolid(const ShapePainter& painter,
+                                                 const Drawing& drawing, const SampleBand& band) {
     DrawWithSolid(painter, drawing);
-    std::vector<unsigned char> samples = CopySamples(band);
-    const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
-    for (std::size_t i = 0; i < samples.size(); i += 4) {
-      if (samples[i + 3] != 0) Lay(&xray[i], share, &samples[i]);
+    CopySamples(band, samples_);
+    if (drawing.veil) {  // it needs the depths of the drawing
+      AddVeil(painter, *drawing.veil);
+      CopySamples(band, veil_);
+      FadeInWindows(drawing.veil->windows, band, veil_);
     }
-    if (!drawing.veil) return samples;
-    AddVeil(painter, *drawing.veil);
-    std::vector<unsigned char> veil = CopySamples(band);
-    FadeInWindows(drawing.veil->windows, band, veil);
-    for (std::size_t i = 0; i < samples.size(); i += 4) Lay(&veil[i], veil[i + 3], &samples[i]);
-    return samples;
+    LayXray(painter, drawing, band);
+    if (drawing.veil) LayVisible(veil_, samples_);
+    return samples_;
+  }
+
+  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there.
+  void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band) {
+    const SampleBox box = VisibleBox(samples_, band);
+    if (box.empty()) return;
+    gl().Scissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+    gl().Enable(GL_SCISSOR_TEST);
+    DrawXray(painter, drawing);
+    gl().Disable(GL_SCISSOR_TEST);
+    const unsigned char* xray = context_.pixels().data();
+    const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
+    for (int y = box.bottom; y < box.top; ++y) {
+      const std::size_t row = std::size_t(y) * band.width;
+      for (std::size_t i = 4 * (row + box.left); i < 4 * (row + box.right); i += 4) {
+        if (samples_[i + 3] != 0) Lay(&xray[i], share, &samples_[i]);
+      }
+    }
   }
 
   /// Compose the samples of layers with a veil.
@@ -293,10 +358,17 @@ class Canvas::Impl {
         add(context_.pixels().data(), weights[i]);
       }
     }
+    const auto write = [&](const auto& mean) {
+      std::ranges::transform(sums, image.rgb.begin() + std::ptrdiff_t{3} * width_ * band.top, mean);
+    };
     const std::uint32_t all = kOne * factor_ * factor_;
-    std::ranges::transform(
-        sums, image.rgb.begin() + std::ptrdiff_t{3} * width_ * band.top,
-        [all](std::uint32_t sum) { return static_cast<unsigned char>((sum + all / 2) / all); });
+    const int shift = std::countr_zero(all);
+    if (std::has_single_bit(all)) {
+      write(
+          [=](std::uint32_t sum) { return static_cast<unsigned char>((sum + all / 2) >> shift); });
+    } else {
+      write([=](std::uint32_t sum) { return static_cast<unsigned char>((sum + all / 2) / all); });
+    }
   }
 
   int width_, height_, factor_;
@@ -304,6 +376,7 @@ class Canvas::Impl {
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
+  std::vector<unsigned char> samples_, veil_;  ///< buffers of ComposeSolid
 };
 
 Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)

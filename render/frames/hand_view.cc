@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "render/picture/image.h"
 
@@ -100,9 +101,22 @@ ShadedMesh MakeShell(ShadedMesh mesh) {
   return TurnInsideOut(std::move(mesh));
 }
 
+/// Return the different corners of a mesh, in the order in which they first occur.
+std::vector<Vector3d> CornersOf(const ShadedMesh& mesh) {
+  std::set<std::array<double, 3>> known;
+  std::vector<Vector3d> corners;
+  for (const auto& triangle : mesh.triangles) {
+    for (const Vector3d& p : triangle) {
+      if (known.insert({p.x(), p.y(), p.z()}).second) corners.push_back(p);
+    }
+  }
+  return corners;
+}
+
 /// Return the farthest corners in many directions.
 std::vector<Vector3d> FarthestCorners(const ShadedMesh& mesh) {
   constexpr int kDirections = 96;
+  const std::vector<Vector3d> corners = CornersOf(mesh);
   std::vector<Vector3d> farthest;
   for (int i = 0; i < kDirections; ++i) {
     // Golden-angle spiral: evenly distributed over the sphere.
@@ -111,10 +125,8 @@ std::vector<Vector3d> FarthestCorners(const ShadedMesh& mesh) {
     const Vector3d direction(std::sqrt(1 - z * z) * std::cos(turn),
                              std::sqrt(1 - z * z) * std::sin(turn), z);
     const Vector3d* best = nullptr;
-    for (const auto& corners : mesh.triangles) {
-      for (const Vector3d& p : corners) {
-        if (best == nullptr || p.dot(direction) > best->dot(direction)) best = &p;
-      }
+    for (const Vector3d& p : corners) {
+      if (best == nullptr || p.dot(direction) > best->dot(direction)) best = &p;
     }
     if (best != nullptr) farthest.push_back(*best);
   }

@@ -10,9 +10,9 @@ namespace regrasp::render {
 // clang-format off
 #define REGRASP_GL_FUNCTIONS(F) \
   F(BlendFunc) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(ColorPointer) F(DepthFunc) \
-  F(DepthMask) F(Disable) F(DisableClientState) F(DrawArrays) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(LightModelfv) F(Lightfv) \
+  F(DepthMask) F(Disable) F(DisableClientState) F(DrawElements) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(LightModelfv) F(Lightfv) \
   F(LoadIdentity) F(LoadMatrixd) F(MatrixMode) F(MultMatrixd) F(NormalPointer) F(Ortho) F(PopMatrix) \
-  F(PushMatrix) F(VertexPointer) F(Viewport)
+  F(PushMatrix) F(Scissor) F(VertexPointer) F(Viewport)
 // clang-format on
 
 /// OpenGL functions of OSMesa, loaded at the first call of gl().

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container_hash/hash.hpp>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <unordered_map>
 #include <variant>
+#include <vector>
 
 namespace regrasp::render {
 
@@ -22,13 +26,30 @@ constexpr float kDiffuse = 0.40F;
 /// Direction towards the light, in camera axes.
 constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
-void Append(const std::vector<std::array<Vector3d, 3>>& corners, std::vector<float>& out) {
-  out.reserve(9 * corners.size());
-  for (const auto& triangle : corners) {
-    for (const Vector3d& p : triangle) {
-      for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
-    }
+/// A vertex: point, normal and colour.
+struct Vertex {
+  std::array<float, 6> values;
+  std::array<unsigned char, 4> color;
+
+  bool operator==(const Vertex&) const = default;
+};
+
+struct VertexHash {
+  std::size_t operator()(const Vertex& vertex) const {
+    return static_cast<std::size_t>(boost::hash_value(vertex.values));
   }
+};
+
+Vertex VertexOf(const ShadedMesh& mesh, std::size_t triangle, int corner) {
+  Vertex vertex = {{}, {}};
+  for (int i = 0; i < 3; ++i) {
+    vertex.values[i] = static_cast<float>(mesh.triangles[triangle][corner][i]);
+    vertex.values[3 + i] = static_cast<float>(mesh.normals[triangle][corner][i]);
+  }
+  if (mesh.colors.empty()) return vertex;
+  const Color& color = mesh.colors[triangle][corner];
+  vertex.color = {color.r, color.g, color.b, 255};
+  return vertex;
 }
 
 void SetColor(Color color, double opacity) {
@@ -41,17 +62,18 @@ struct FormPainter {
   const std::vector<VertexArrays>& meshes;
 
   void operator()(const Sphere& sphere) const {
-    VertexArrays(MakeCapsule(sphere.centre, sphere.centre, sphere.radius)).Draw();
+    Once(MakeCapsule(sphere.centre, sphere.centre, sphere.radius));
   }
   void operator()(const Capsule& capsule) const {
-    VertexArrays(MakeCapsule(capsule.from, capsule.to, capsule.radius)).Draw();
+    Once(MakeCapsule(capsule.from, capsule.to, capsule.radius));
   }
   void operator()(const Line& line) const {
     gl().Disable(GL_LIGHTING);
     const Vector3d back = camera.ToEye((line.from + line.to) / 2);
-    VertexArrays(MakeBand(line.from, line.to, line.radius, back)).Draw();
+    Once(MakeBand(line.from, line.to, line.radius, back));
     gl().Enable(GL_LIGHTING);
   }
+  static void Once(const ShadedMesh& mesh) { VertexArrays(mesh, /*shared=*/false).Draw(); }
   void operator()(const MeshInstance& instance) const {
     gl().PushMatrix();
     gl().MultMatrixd(instance.pose.data());
@@ -70,13 +92,19 @@ struct Middle {
 
 }  // namespace
 
-VertexArrays::VertexArrays(const ShadedMesh& mesh) {
-  Append(mesh.triangles, points_);
-  Append(mesh.normals, normals_);
-  for (const auto& triangle : mesh.colors) {
-    for (const Color& color : triangle) {
-      for (const unsigned char channel : {color.r, color.g, color.b}) colors_.push_back(channel);
-      colors_.push_back(255);
+VertexArrays::VertexArrays(const ShadedMesh& mesh, bool shared) {
+  std::unordered_map<Vertex, unsigned, VertexHash> indices;
+  corners_.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vertex vertex = VertexOf(mesh, t, corner);
+      const auto count = static_cast<unsigned>(points_.size() / 3);
+      corners_.push_back(shared ? indices.try_emplace(vertex, count).first->second : count);
+      if (corners_.back() != count) continue;
+      points_.insert(points_.end(), vertex.values.begin(), vertex.values.begin() + 3);
+      normals_.insert(normals_.end(), vertex.values.begin() + 3, vertex.values.end());
+      if (mesh.colors.empty()) continue;
+      colors_.insert(colors_.end(), vertex.color.begin(), vertex.color.end());
     }
   }
 }
@@ -88,7 +116,8 @@ void VertexArrays::Draw() const {
     gl().EnableClientState(GL_COLOR_ARRAY);
     gl().ColorPointer(4, GL_UNSIGNED_BYTE, 0, colors_.data());
   }
-  gl().DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(points_.size() / 3));
+  gl().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_.size()), GL_UNSIGNED_INT,
+                    corners_.data());
   if (!colors_.empty()) gl().DisableClientState(GL_COLOR_ARRAY);
 }
 

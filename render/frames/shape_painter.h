@@ -11,14 +11,18 @@ namespace regrasp::render {
 /// Vertex arrays of a mesh for OpenGL.
 class VertexArrays {
  public:
-  explicit VertexArrays(const ShadedMesh& mesh);
+  /// @param mesh
+  /// @param shared  whether triangles share equal corners. That is faster to draw, and slower to
+  ///                set up.
+  explicit VertexArrays(const ShadedMesh& mesh, bool shared = true);
   /// Draw the triangles in the current colour, or in their own colours if they have some.
   void Draw() const;
 
  private:
   std::vector<float> points_;
   std::vector<float> normals_;
-  std::vector<unsigned char> colors_;  ///< RGBA per corner; empty: the current colour
+  std::vector<unsigned char> colors_;  ///< RGBA per vertex; empty: the current colour
+  std::vector<unsigned> corners_;      ///< vertices of the triangles
 };
 
 /// Rows from `top` to `top + rows` of an image with `height` rows.

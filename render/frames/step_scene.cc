@@ -9,7 +9,9 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -89,6 +91,37 @@ aiNode* MakeNode(const std::string& name, unsigned mesh) {
   return node;
 }
 
+/// Return a transformation in coordinates with y up.
+aiMatrix4x4 Turned(const Eigen::Affine3d& pose) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Zero();
+  turn(0, 0) = turn(1, 2) = turn(3, 3) = 1;
+  turn(2, 1) = -1;
+  const Eigen::Matrix4f m = (turn * pose.matrix() * turn.transpose()).cast<float>();
+  return {m(0, 0), m(0, 1), m(0, 2), m(0, 3), m(1, 0), m(1, 1), m(1, 2), m(1, 3),
+          m(2, 0), m(2, 1), m(2, 2), m(2, 3), m(3, 0), m(3, 1), m(3, 2), m(3, 3)};
+}
+
+void AddChildren(const std::vector<aiNode*>& children, aiNode& parent) {
+  parent.mNumChildren = static_cast<unsigned>(children.size());
+  parent.mChildren = new aiNode*[children.size()];
+  std::ranges::copy(children, parent.mChildren);
+  for (aiNode* child : children) child->mParent = &parent;
+}
+
+/// Return the node of a part.
+aiNode* NodeOf(const ScenePart& part, unsigned mesh) {
+  std::vector<aiNode*> copies;
+  for (std::size_t i = 0; i < part.poses.size(); ++i) {
+    const bool single = part.poses.size() == 1;
+    copies.push_back(MakeNode(single ? part.name : part.name + " " + std::to_string(i), mesh));
+    copies.back()->mTransformation = Turned(part.poses[i]);
+  }
+  if (copies.size() == 1) return copies.front();
+  auto* node = new aiNode(part.name);
+  AddChildren(copies, *node);
+  return node;
+}
+
 /// Return a scene that owns everything it points to.
 std::unique_ptr<aiScene> MakeScene(const std::string& name, const std::vector<ScenePart>& parts) {
   auto scene = std::make_unique<aiScene>();
@@ -96,14 +129,14 @@ std::unique_ptr<aiScene> MakeScene(const std::string& name, const std::vector<Sc
   scene->mMeshes = new aiMesh*[count]();
   scene->mMaterials = new aiMaterial*[count]();
   scene->mRootNode = new aiNode(name);
-  scene->mRootNode->mChildren = new aiNode*[count]();
+  std::vector<aiNode*> nodes;
   for (unsigned i = 0; i < count; ++i) {
     scene->mMeshes[i] = MakeMesh(parts[i], i);
     scene->mMaterials[i] = MakeMaterial(parts[i]);
-    scene->mRootNode->mChildren[i] = MakeNode(parts[i].name, i);
-    scene->mRootNode->mChildren[i]->mParent = scene->mRootNode;
+    nodes.push_back(NodeOf(parts[i], i));
   }
-  scene->mNumMeshes = scene->mNumMaterials = scene->mRootNode->mNumChildren = count;
+  AddChildren(nodes, *scene->mRootNode);
+  scene->mNumMeshes = scene->mNumMaterials = count;
   return scene;
 }
 
@@ -202,16 +235,6 @@ constexpr double kGlass = 0.45;  ///< opacity of the object
 /// Meshes that the shapes of fingers refer to.
 enum Mesh { kConeMesh, kArrowMesh };
 
-ShadedMesh Moved(ShadedMesh mesh, const Eigen::Isometry3d& pose) {
-  for (auto& corners : mesh.triangles) {
-    for (Vector3d& p : corners) p = pose * p;
-  }
-  for (auto& normals : mesh.normals) {
-    for (Vector3d& n : normals) n = pose.linear() * n;
-  }
-  return mesh;
-}
-
 ShadedMesh Scaled(ShadedMesh mesh, double scale, const Vector3d& offset) {
   for (auto& corners : mesh.triangles) {
     for (Vector3d& p : corners) p = scale * p + offset;
@@ -219,44 +242,85 @@ ShadedMesh Scaled(ShadedMesh mesh, double scale, const Vector3d& offset) {
   return mesh;
 }
 
-struct MeshOfForm {
-  const std::vector<ShadedMesh>& meshes;
+/// The forms that markers consist of, as meshes of unit size.
+enum class UnitForm { kSphere, kCylinder, kCone, kArrowHead };
 
-  ShadedMesh operator()(const Sphere& sphere) const {
-    return MakeCapsule(sphere.centre, sphere.centre, sphere.radius);
+/// Return an open cylinder of radius 1 from the origin to (0, 0, 1).
+ShadedMesh MakeCylinder() {
+  constexpr int kSides = 32;
+  const auto across = [](int i) {
+    const double turn = 2 * std::numbers::pi * i / kSides;
+    return Vector3d(std::cos(turn), std::sin(turn), 0);
+  };
+  ShadedMesh cylinder;
+  for (int i = 0; i < kSides; ++i) {
+    const Vector3d a = across(i), b = across(i + 1), up = Vector3d::UnitZ();
+    cylinder.Add({a, b, b + up}, {a, b, b});
+    cylinder.Add({a, b + up, a + up}, {a, b, a});
   }
-  ShadedMesh operator()(const Capsule& capsule) const {
-    return MakeCapsule(capsule.from, capsule.to, capsule.radius);
+  return cylinder;
+}
+
+/// A unit form at a pose.
+struct PlacedForm {
+  UnitForm form;
+  Eigen::Affine3d pose;
+};
+
+/// Splits shapes into unit forms.
+struct FormsOf {
+  std::vector<PlacedForm>& placed;
+
+  void operator()(const Sphere& sphere) const {
+    placed.push_back(
+        {UnitForm::kSphere, Eigen::Translation3d(sphere.centre) * Eigen::Scaling(sphere.radius)});
   }
-  ShadedMesh operator()(const Line& line) const {
-    return MakeCapsule(line.from, line.to, line.radius);
+  void operator()(const Capsule& capsule) const { AddCapsule(capsule); }
+  void operator()(const Line& line) const { AddCapsule(line); }
+  void operator()(const MeshInstance& instance) const {
+    placed.push_back({instance.mesh == kConeMesh ? UnitForm::kCone : UnitForm::kArrowHead,
+                      Eigen::Affine3d(instance.pose)});
   }
-  ShadedMesh operator()(const MeshInstance& instance) const {
-    return Moved(meshes[instance.mesh], instance.pose);
+  template <class Form>
+  void AddCapsule(const Form& form) const {
+    for (const Vector3d& end : {form.from, form.to}) (*this)(Sphere{end, form.radius});
+    const Vector3d along = form.to - form.from;
+    if (along.norm() == 0) return;
+    placed.push_back(
+        {UnitForm::kCylinder, Eigen::Translation3d(form.from) *
+                                  object::AligningRotation(Vector3d::UnitZ(), along) *
+                                  Eigen::Scaling(form.radius, form.radius, along.norm())});
   }
 };
 
-void AddTo(ShadedMesh& all, const ShadedMesh& mesh) {
-  all.triangles.insert(all.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
-  all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
-}
-
-/// Add a finger as one opaque part and one translucent part (cone or ghost).
-void AddFinger(const FingerGlyph& glyph, const std::vector<ShadedMesh>& meshes,
+/// Add a finger: one part per unit form, opaque or translucent.
+void AddFinger(const FingerGlyph& glyph, const std::map<UnitForm, ShadedMesh>& meshes,
                std::vector<ScenePart>& parts) {
+  static const std::map<UnitForm, std::string> kNames = {{UnitForm::kSphere, "sphere"},
+                                                         {UnitForm::kCylinder, "cylinder"},
+                                                         {UnitForm::kCone, "cone"},
+                                                         {UnitForm::kArrowHead, "arrow head"}};
   std::vector<Shape> shapes;
   AddFingerShapes(glyph, /*largest_force=*/0, {kConeMesh, kArrowMesh}, shapes);
-  const std::string name = "finger " + std::to_string(glyph.finger);
-  ScenePart solid = {name, {}, FingerColor(glyph.finger), 1};
-  ScenePart pale = {name + " cone", {}, FingerColor(glyph.finger), 1};
+  std::map<std::pair<bool, UnitForm>, ScenePart> by_form;
   for (const Shape& shape : shapes) {
-    ScenePart& part = shape.opacity < 1 ? pale : solid;
-    AddTo(part.mesh, std::visit(MeshOfForm{meshes}, shape.form));
-    part.opacity = shape.opacity;
+    std::vector<PlacedForm> placed;
+    std::visit(FormsOf{placed}, shape.form);
+    for (const auto& [form, pose] : placed) {
+      const bool pale = shape.opacity < 1;
+      ScenePart& part = by_form[{pale, form}];
+      if (part.name.empty()) {
+        part = {"finger " + std::to_string(glyph.finger) + " " + kNames.at(form),
+                meshes.at(form),
+                FingerColor(glyph.finger),
+                shape.opacity,
+                {}};
+        if (pale && form != UnitForm::kCone) part.name += " ghost";
+      }
+      part.poses.push_back(pose);
+    }
   }
-  for (ScenePart& part : std::vector{solid, pale}) {
-    if (!part.mesh.triangles.empty()) parts.push_back(std::move(part));
-  }
+  for (auto& [form, part] : by_form) parts.push_back(std::move(part));
 }
 
 }  // namespace
@@ -266,15 +330,21 @@ std::vector<ScenePart> MakeStepScene(const object::Object& object, const plan::P
   const BodyShape body = MakeBodyShape(object, options);
   const NormalizedFrame frame = {projected.scale * object.diameter(),
                                  projected.scale * object.mass_properties().centroid};
-  const std::vector<ShadedMesh> meshes = {MakeCone(projected.friction_angle, kConeLength),
-                                          MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
+  const std::map<UnitForm, ShadedMesh> meshes = {
+      {UnitForm::kSphere, MakeCapsule(Vector3d::Zero(), Vector3d::Zero(), 1)},
+      {UnitForm::kCylinder, MakeCylinder()},
+      {UnitForm::kCone, MakeCone(projected.friction_angle, kConeLength)},
+      {UnitForm::kArrowHead, MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)}};
   std::vector<ScenePart> parts = {{"object", body.surface, kBodyOutside, kGlass}};
   const plan::Snapshot snapshot = plan::MakePlannedSnapshot(projected, entry, {}, 0);
   for (const FingerGlyph& glyph : MakeFingerGlyphs(snapshot, frame, body.rays)) {
     AddFinger(glyph, meshes, parts);
   }
-  for (ScenePart& part : parts) {
-    part.mesh = Scaled(std::move(part.mesh), frame.diameter_m, frame.centroid_m);
+  parts[0].mesh = Scaled(std::move(parts[0].mesh), frame.diameter_m, frame.centroid_m);
+  const Eigen::Affine3d to_metres =
+      Eigen::Translation3d(frame.centroid_m) * Eigen::Scaling(frame.diameter_m);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    for (Eigen::Affine3d& pose : parts[i].poses) pose = to_metres * pose;
   }
   return parts;
 }

@@ -16,15 +16,18 @@
 
 namespace regrasp::render {
 
-/// A named part of a 3D scene.
+/// A named part of a 3D scene: copies of a mesh in one colour.
 struct ScenePart {
   std::string name;
   ShadedMesh mesh;
   Color color;
   double opacity = 1;
+  /// Transformations from the mesh to the scene, one per copy.
+  std::vector<Eigen::Affine3d> poses = {Eigen::Affine3d::Identity()};
 };
 
-/// Encode a scene as a binary glTF 2.0 file (.glb), with a node and a mesh per part.
+/// Encode a scene as a binary glTF 2.0 file (.glb), with a mesh per part and a node per copy.
+/// A part with several copies has a node, which is the parent of its copies.
 ///
 /// Lengths are in the unit of the parts, which glTF interprets as metres. The scene is rotated so
 /// that z points up, where glTF has y. Deterministic: the same parts give the same bytes.
@@ -60,8 +63,9 @@ void AddRotationArrow(const std::vector<Eigen::Vector3d>& arrow, int arrow_head,
 /// Convert a plan entry to a 3D scene in metres, in the object frame.
 ///
 /// The object is translucent. Each finger has its fingertip sphere, stem and friction cone, and its
-/// arrow or track, as in frames but without forces. Names are "object", "finger 0", "finger 0 cone"
-/// and so on.
+/// arrow or track, as in frames but without forces. Names are "object", "finger 0 sphere", "finger
+/// 0 cylinder", "finger 0 arrow head", "finger 0 cone" and so on; "ghost" is added to translucent
+/// spheres, cylinders and arrow heads.
 /// @param located  plan with faces of this object (ProjectPlan).
 /// @param entry    index of the entry: 0 the initial grasp, k the k-th step.
 [[nodiscard]] std::vector<ScenePart> MakeStepScene(const object::Object& object,

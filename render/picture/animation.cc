@@ -109,7 +109,7 @@ class WebpAnimation : public Animation {
     const bool good = WebPAnimEncoderOptionsInit(&options) != 0;
     assert(good && "libwebpmux: version differs from its header");
     static_cast<void>(good);
-    options.kmin = kMaxKeyDistance / 2 + 1;
+    options.kmin = kMaxKeyDistance - 1;  // frames in between need not be encoded twice
     options.kmax = kMaxKeyDistance;
     encoder_ = WebPAnimEncoderNew(width, height, &options);
     RequireWebp(encoder_ != nullptr);

@@ -54,14 +54,45 @@ class Figure(ProgramCase):
     def refuse(self, words, *more, code=2, **changes):
         return self.assert_refused(code, words, *self.arguments(*more, **changes))
 
-    def test_a_plan_for_a_hand_is_refused(self):
-        hand = self.model(os.path.join("hands", "ring4.json"))
-        self.assert_done("--object", self.model("cube.obj"), "--scale", "0.8", "--mu", "0.8",
+    def test_a_plan_for_a_hand_is_drawn_with_its_hand_and_with_no_other(self):
+        cube, hand = self.model("cube.obj"), self.model(os.path.join("hands", "ring4.json"))
+        self.assert_done("--object", cube, "--scale", "0.8", "--mu", "0.8",
                          "--hand", hand, "--turn", "z,90", "--robustness", "none", "--output",
                          "hand_plan.json", program="plan")
-        self.refuse("hand_plan.json: expected a plan without a hand, found a plan for ring4.json", object=self.model("cube.obj"),
-                    plan="hand_plan.json")
+        self.refuse("hand_plan.json: a plan with a hand requires --hand; help: pass --hand ring4.json",
+                    object=cube, plan="hand_plan.json")
+        self.refuse(["--hand", "expected ring4.json", "found", "ring5.json"], object=cube,
+                    plan="hand_plan.json", hand=self.model(os.path.join("hands", "ring5.json")))
         self.assertFalse(os.path.exists(self.path("result")))
+        for output in ("first", "second"):
+            names = self.draw(object=cube, plan="hand_plan.json", hand=hand, output=output)
+        steps = json.loads(self.read("hand_plan.json"))["steps"]
+        self.assertEqual(len(names), len(steps) + 2)
+        for name in names:
+            self.assertEqual(self.read("first/" + name), self.read("second/" + name))
+            self.assertLess(len(self.read("first/" + name)), 500_000 * len(names))
+
+    def test_a_hand_requires_a_plan_with_a_hand(self):
+        self.refuse(["--hand", "plan.json", "without a hand"],
+                    hand=self.model(os.path.join("hands", "ring4.json")))
+
+    def test_the_font_family_must_be_installed(self):
+        usual = self.draw()
+        self.draw("--size", "family=monospace", output="other")
+        self.assertNotEqual(self.read("result/sheet.svg"), self.read("other/sheet.svg"))
+        self.assertEqual(usual, sorted(os.listdir(self.path("other"))))
+        for name in ("No such family", "<b>&", ""):
+            self.refuse(["--size family", "not found"], "--size", "family=" + name, output="none")
+
+    def test_captions_are_drawn_unless_none_are_wanted(self):
+        self.draw(format="png", output="usual")
+        self.draw("--size", "captions=none", format="png", output="bare")
+        for name in ("000_hold.png", "sheet.png"):
+            usual, bare = (struct.unpack(">II", self.read(f"{folder}/{name}")[16:24])
+                           for folder in ("usual", "bare"))
+            self.assertEqual(usual[0], bare[0])
+            self.assertGreater(usual[1], bare[1] + 20)
+        self.refuse(["--size captions", "above"], "--size", "captions=above")
 
     def test_a_terminal_is_told_what_is_done_from_the_first_moment(self):
         done, shown = self.run_on_terminal(*self.arguments())
@@ -227,8 +258,8 @@ class Figure(ProgramCase):
         self.assertEqual([name for name in names if name.startswith("contact_space_")], [])
 
     def test_refuses_the_contact_space_of_other_than_two_contacts(self):
-        self.refuse(["plan.json", "initial grasp", "3 contacts", "--contact-space"],
-                    "--contact-space")
+        self.refuse(["plan.json", "initial grasp", "3 contacts", "--format contact-space"],
+                    "--format", "contact-space")
         fork = self.use_two_finger_plan()
         self.plan["steps"][0]["release"] = []
         self.plan["steps"][1]["waypoints"] = [
@@ -236,7 +267,7 @@ class Figure(ProgramCase):
         goal = self.plan["steps"][1]["waypoints"][1]["contacts"]
         self.plan["goal"]["contacts"] = goal
         self.write_plan()
-        self.refuse(["plan.json", "step 1", "3 contacts", "--contact-space"], "--contact-space",
+        self.refuse(["plan.json", "step 1", "3 contacts", "contact-space"], "--format", "contact-space",
                     object=fork)
 
     # Invalid usage.
@@ -301,7 +332,7 @@ class Figure(ProgramCase):
 
     def test_refuses_for_solids_what_only_planar_objects_have_and_the_reverse(self):
         self.write("plan.json", self.data("plan_good", "cube_no_steps.json"))
-        self.refuse(["--contact-space", "cube.obj", "solid"], "--contact-space",
+        self.refuse(["--format contact-space", "cube.obj", "solid"], "--format", "contact-space",
                     object=self.model("cube.obj"))
         self.write_plan()
         self.refuse(["--view", "square.wkt", "planar"], "--view", "30,20")

@@ -42,7 +42,7 @@ struct Fork {
 
 TEST(ContactSpaceFigureTest, TheSetsOfThePlanHaveTheirTints) {
   Fork fork;
-  const std::string overview = fork.figures.DrawOverview(FigureFormat::kSvg);
+  const std::string overview = fork.figures.DrawOverview({.format = FigureFormat::kSvg});
   for (const int name : {0, 1, 2}) EXPECT_EQ(Count(overview, "fill", PlanSetTint(name)), 1) << name;
   EXPECT_EQ(Count(overview, "fill", PlanSetTint(3)), 0);
   EXPECT_GT(Count(overview, "fill", OtherSetTint(sets::SetIndex(0))) +
@@ -53,7 +53,8 @@ TEST(ContactSpaceFigureTest, TheSetsOfThePlanHaveTheirTints) {
 TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBars) {
   Fork fork;
   for (const int entry : {1, 2}) {
-    const auto svg = fork.figures.DrawSwitch(plan::EntryIndex(entry), FigureFormat::kSvg);
+    const auto svg =
+        fork.figures.DrawSwitch(plan::EntryIndex(entry), {.format = FigureFormat::kSvg});
     ASSERT_TRUE(svg.has_value());
     for (const int name : {0, 1, 2}) {
       const bool shown = name == entry - 1 || name == entry;
@@ -65,23 +66,28 @@ TEST(ContactSpaceFigureTest, ASwitchShowsItsTwoSetsOnceInTheirWindowsAndOnceAsBa
 TEST(ContactSpaceFigureTest, OnlyAStretchingSetIsHatched) {
   constexpr Color kPale = {252, 252, 252};
   Fork fork;
-  EXPECT_EQ(
-      Count(*fork.figures.DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg), "stroke", kPale), 0);
-  EXPECT_EQ(
-      Count(*fork.figures.DrawSwitch(plan::EntryIndex(2), FigureFormat::kSvg), "stroke", kPale), 1);
+  EXPECT_EQ(Count(*fork.figures.DrawSwitch(plan::EntryIndex(1), {.format = FigureFormat::kSvg}),
+                  "stroke", kPale),
+            0);
+  EXPECT_EQ(Count(*fork.figures.DrawSwitch(plan::EntryIndex(2), {.format = FigureFormat::kSvg}),
+                  "stroke", kPale),
+            1);
 }
 
 TEST(ContactSpaceFigureTest, OnlySwitchesThatKeepAContactHaveAFigure) {
   Fork fork;
-  EXPECT_EQ(fork.figures.DrawSwitch(plan::EntryIndex(0), FigureFormat::kSvg), std::nullopt);
+  EXPECT_EQ(fork.figures.DrawSwitch(plan::EntryIndex(0), {.format = FigureFormat::kSvg}),
+            std::nullopt);
   const object::Polygon square = MakeSquare();
   const plan::Plan exchange = MakeExchangePlan();
   ContactSpaceFigures exchanged(square, exchange);
-  EXPECT_EQ(exchanged.DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg), std::nullopt);
-  EXPECT_FALSE(exchanged.DrawOverview(FigureFormat::kSvg).empty());
+  EXPECT_EQ(exchanged.DrawSwitch(plan::EntryIndex(1), {.format = FigureFormat::kSvg}),
+            std::nullopt);
+  EXPECT_FALSE(exchanged.DrawOverview({.format = FigureFormat::kSvg}).empty());
   const object::Polygon disc = MakeDisc(12);
   const plan::Plan align = MakeDiscPlan(disc);
-  EXPECT_EQ(ContactSpaceFigures(disc, align).DrawSwitch(plan::EntryIndex(1), FigureFormat::kSvg),
+  EXPECT_EQ(ContactSpaceFigures(disc, align)
+                .DrawSwitch(plan::EntryIndex(1), {.format = FigureFormat::kSvg}),
             std::nullopt);
 }
 
@@ -89,23 +95,26 @@ TEST(ContactSpaceFigureTest, TheSamePlanHasTheSameBytesAndAnotherHasOthers) {
   // Files are compared as a whole: EXPECT_EQ would print megabytes.
   for (const FigureFormat format : kFormats) {
     Fork first, second;
-    EXPECT_TRUE(first.figures.DrawOverview(format) == second.figures.DrawOverview(format));
-    EXPECT_TRUE(first.figures.DrawSwitch(plan::EntryIndex(1), format) ==
-                second.figures.DrawSwitch(plan::EntryIndex(1), format));
-    EXPECT_FALSE(first.figures.DrawSwitch(plan::EntryIndex(1), format) ==
-                 first.figures.DrawSwitch(plan::EntryIndex(2), format));
+    EXPECT_TRUE(first.figures.DrawOverview({.format = format}) ==
+                second.figures.DrawOverview({.format = format}));
+    EXPECT_TRUE(first.figures.DrawSwitch(plan::EntryIndex(1), {.format = format}) ==
+                second.figures.DrawSwitch(plan::EntryIndex(1), {.format = format}));
+    EXPECT_FALSE(first.figures.DrawSwitch(plan::EntryIndex(1), {.format = format}) ==
+                 first.figures.DrawSwitch(plan::EntryIndex(2), {.format = format}));
   }
 }
 
 TEST(ContactSpaceFigureTest, ALargeOverviewIsTwoColumnsWide) {
   Fork fork;
-  EXPECT_EQ(PngWidth(fork.figures.DrawOverview(FigureFormat::kPng)), 1004);
-  EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(plan::EntryIndex(1), FigureFormat::kPng)), 2055);
+  EXPECT_EQ(PngWidth(fork.figures.DrawOverview({.format = FigureFormat::kPng})), 1004);
+  EXPECT_EQ(PngWidth(*fork.figures.DrawSwitch(plan::EntryIndex(1), {.format = FigureFormat::kPng})),
+            2055);
   for (const int edges : {30, 100}) {
     const object::Polygon disc = MakeDisc(edges);
     const plan::Plan plan = MakeDiscPlan(disc);
-    EXPECT_EQ(PngWidth(ContactSpaceFigures(disc, plan).DrawOverview(FigureFormat::kPng)),
-              edges < 60 ? 1004 : 2055);
+    EXPECT_EQ(
+        PngWidth(ContactSpaceFigures(disc, plan).DrawOverview({.format = FigureFormat::kPng})),
+        edges < 60 ? 1004 : 2055);
   }
 }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
@@ -182,6 +185,36 @@ TEST(BodyShapeTest, AScanHasNoCreasesButAnOutline) {
   EXPECT_GT(MakeBodyShape(lens, {.edges = EdgeStyle::kAll}).edges.size(), 24U);
   // A cylinder with planar ends is not a scan.
   EXPECT_FALSE(MakeBodyShape(MakeRoundPrism(64)).edges.empty());
+}
+
+/// Return the number of triangles with different normals at their corners.
+int CountSmooth(const BodyShape& shape) {
+  int count = 0;
+  for (const auto& [a, b, c] : shape.surface.normals) {
+    count += a.dot(b) < 1 - 1e-9 || b.dot(c) < 1 - 1e-9 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(BodyShapeTest, AScanIsShadedSmoothlyThroughoutAndACadModelUpToItsCreases) {
+  // The lens bends by more than the crease angle at its equator.
+  const BodyShape lens = MakeBodyShape(MakeLens(24, 0.6));
+  double sharpest = 1;  // cosine
+  for (const Fold& fold : lens.folds)
+    sharpest = std::min(sharpest, fold.normals[0].dot(fold.normals[1]));
+  EXPECT_LT(sharpest, std::cos(kDefaultCreaseAngle));
+  EXPECT_EQ(CountSmooth(lens), static_cast<int>(lens.surface.triangles.size()));
+  std::map<std::array<double, 3>, Vector3d> normals;
+  for (std::size_t t = 0; t < lens.surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d& p = lens.surface.triangles[t][i];
+      const Vector3d& n = lens.surface.normals[t][i];
+      const auto [known, is_new] = normals.try_emplace({p.x(), p.y(), p.z()}, n);
+      EXPECT_GT(known->second.dot(n), 1 - 1e-9) << "one normal per vertex";
+    }
+  }
+  // Negative control: a cube has one normal per face.
+  EXPECT_EQ(CountSmooth(MakeBodyShape(MakeThinLBlock())), 0);
 }
 
 TEST(BodyShapeTest, TheOutlineOfARoundObjectSeparatesFrontAndBack) {
