@@ -19,6 +19,7 @@ namespace regrasp::sim {
 struct HandControlSettings {
   double friction_angle = 0;  ///< friction angle for planned forces, radians
   double weight_N = 0;        ///< assumed weight of the object
+  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
   HandSensing sensing = {};
 };
 
