@@ -19,7 +19,8 @@ struct HandOptions {
   std::string goal_tolerance;
   std::string goals;          ///< file of goals; empty: none
   std::string gravity;        ///< direction, or any; empty: that of the hand
-  std::string continue_plan;  ///< plan whose end is the start; empty: none
+  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
+  std::string continue_plan;     ///< plan whose end is the start; empty: none
   double clearance_m = 1e-3;
   /// Required robustness, and the conditions of the simulated execution.
   struct Robustness {

@@ -194,9 +194,10 @@ criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double qua
 /// only if its line of force meets the line through both. Actuators do not achieve this.
 constexpr int kFewestBesideSliding = 3;
 
-/// Reserve of gravity-supported grasps at grid nodes, for the poses between them: a factor of the
-/// required disturbance, and weights. Rotations by 0.15 rad need 0.0028 weights.
-constexpr double kSupportReserve = 1.05;
+/// Reserve of gravity-supported grasps at grid nodes, for rolling contacts and for the poses between
+/// nodes: a factor of the required disturbance, and weights. Rotations by 0.15 rad need 0.0028
+/// weights.
+constexpr double kSupportReserve = 2;
 constexpr double kChordReserve = 0.003;
 
 /// Search configuration for one set of robustness margins, or for none.

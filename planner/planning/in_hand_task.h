@@ -9,13 +9,13 @@
 #include "planner/base/deadline.h"
 #include "planner/base/index.h"
 #include "planner/plan/goal_set.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::kinematics {
 struct HandModel;
 }
 
 namespace regrasp::plan {
-struct Plan;
 enum class Reason;
 }  // namespace regrasp::plan
 

@@ -19,8 +19,8 @@ namespace regrasp::sim {
 struct HandControlSettings {
   double friction_angle = 0;  ///< friction angle for planned forces, radians
   double weight_N = 0;        ///< assumed weight of the object
-  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
   HandSensing sensing = {};
+  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
 };
 
 /// A holding finger that slides along the surface.
