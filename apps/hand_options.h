@@ -17,8 +17,8 @@ struct HandOptions {
   std::string goal_pose;
   std::string goal_facing;
   std::string goal_tolerance;
-  std::string goals;          ///< file of goals; empty: none
-  std::string gravity;        ///< direction, or any; empty: that of the hand
+  std::string goals;             ///< file of goals; empty: none
+  std::string gravity;           ///< direction, or any; empty: that of the hand
   bool gravity_support = false;  ///< whether grasps may hold the object by its weight
   std::string continue_plan;     ///< plan whose end is the start; empty: none
   double clearance_m = 1e-3;

@@ -95,7 +95,8 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .goal = GoalOf(given),
           .goals = GoalsOf(given, hand),
           .ups = given.ups,
-          .gravity_support = given.gravity_support ? std::optional(plan::GravitySupport()) : std::nullopt,
+          .gravity_support =
+              given.gravity_support ? std::optional(plan::GravitySupport()) : std::nullopt,
           .simulate = sim::ExecutionSimulator(
               hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard

@@ -72,8 +72,8 @@ void AddSupportWarning(const Report& report, std::vector<std::string>& warnings)
   if (!resistance) return;
   warnings.push_back("gravity-supported in " + std::to_string(supported) + " of " +
                      CountedText(std::ssize(report.steps), "static grasp") +
-                     ": not force closure, resists disturbances of " +
-                     FormatShort(*resistance, 2) + " weights of the object");
+                     ": not force closure, resists disturbances of " + FormatShort(*resistance, 2) +
+                     " weights of the object");
 }
 
 }  // namespace

@@ -121,7 +121,8 @@ PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, con
   PlannedTask planned;
   const double begin = ProcessorSeconds();
   try {
-    planning::PlanResult result = Solve(hand, body, task, start, ProcessorDeadline(limit_s), support);
+    planning::PlanResult result =
+        Solve(hand, body, task, start, ProcessorDeadline(limit_s), support);
     planned.seconds = ProcessorSeconds() - begin;
     planned.plan = std::move(result.plan);
     planned.message = std::move(result.message);

@@ -194,11 +194,11 @@ criteria::GraspCriteria WithQuality(criteria::GraspCriteria criteria, double qua
 /// only if its line of force meets the line through both. Actuators do not achieve this.
 constexpr int kFewestBesideSliding = 3;
 
-/// Reserve of gravity-supported grasps at grid nodes, for rolling contacts and for the poses between
-/// nodes: a factor of the required disturbance, and weights. Rotations by 0.15 rad need 0.0028
-/// weights.
-constexpr double kSupportReserve = 2;
-constexpr double kChordReserve = 0.003;
+/// Margin of gravity-supported grasps at grid nodes, for rolling contacts and for the poses between
+/// nodes: a factor of the required disturbance, and weights. Rotations by 0.15 rad need
+/// 0.0028 weights.
+constexpr double kSupportFactor = 2;
+constexpr double kSupportMargin = 0.003;
 
 /// Search configuration for one set of robustness margins, or for none.
 struct SearchConfig {
@@ -222,7 +222,7 @@ struct SearchConfig {
                criteria::QualityTest::kQuick) {
     if (request.gravity_support) {
       plan::GravitySupport support = *request.gravity_support;
-      support.disturbance = kSupportReserve * support.disturbance + kChordReserve;
+      support.disturbance = kSupportFactor * support.disturbance + kSupportMargin;
       carrier.emplace(request.solid->wrench_frame(), request.criteria.friction_angle, support,
                       request.hand->up);
       setup.carrier = &*carrier;

@@ -65,8 +65,8 @@ class ObjectMotionChecker {
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
 
-  /// Let stances pass only where they are grasps that hold the object. Without it, force closure of
-  /// stances is left to the caller, because it does not depend on the pose.
+  /// Let stances pass only at grid nodes at which they hold the object. Without it, the caller
+  /// tests force closure of stances, because it does not depend on the pose.
   /// @param grasps  outlives this object.
   void RequireSupport(SupportedGrasps& grasps) { supported_ = &grasps; }
 

@@ -69,8 +69,8 @@ void MarkGoal(const Gait& gait, const GaitRequest& request, plan::Plan& plan) {
   plan.hand->goals.push_back({"", static_cast<int>(plan.steps.size()), *goal});
 }
 
-/// Return whether a grasp that gravity supports at the start of a path is supported all along it.
-/// Other grasps are force closure.
+/// Return whether a grasp that gravity supports at the start of a path is supported at all its
+/// poses. Other grasps are force closure.
 bool KeepsSupport(const HandSetup& setup, const ContactAssignment& assignment,
                   const std::vector<Keyframe>& path) {
   if (setup.carrier == nullptr) return true;

@@ -1,10 +1,9 @@
 #pragma once
 
+#include <boost/container_hash/hash.hpp>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
-
-#include <boost/container_hash/hash.hpp>
 
 #include "planner/criteria/grasp_evaluator.h"
 #include "planner/gait/gait.h"

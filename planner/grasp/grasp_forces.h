@@ -47,9 +47,10 @@ struct GraspForces {
 
 /// Compute the contact forces of at most `most_normal` that balance a load.
 /// As ComputeGraspForces, but with Σ n_i·f_i ≤ most_normal: fingers that carry an object from below
-/// cannot squeeze it, so that the sum of their normal forces follows from the load. The forces have
-/// the largest margin; for a force-closure grasp their sum is most_normal.
-/// @param most_normal  largest sum of the normal forces, newtons, > 0. The margin is relative to it.
+/// cannot press against each other, so that the sum of their normal forces follows from the load.
+/// The forces have the largest margin; for a force-closure grasp their sum is most_normal.
+/// @param most_normal  largest sum of the normal forces, newtons, > 0. The margin is relative to
+/// it.
 /// @throws std::invalid_argument  as ComputeGraspForces.
 [[nodiscard]] GraspForces ComputeSupportForces(std::span<const Contact> contacts,
                                                const object::WrenchFrame& frame,

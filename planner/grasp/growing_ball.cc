@@ -56,7 +56,7 @@ struct ShiftedWrenches {
   }
 };
 
-/// Return the distance at which a facet needs no more refinement.
+/// Return the distance at which a plane of the hull needs no more refinement.
 /// A hundredth of the gap covers the rounding of the lower bound.
 double GoalOf(double upper, double relative_gap) {
   const double goal = upper - 0.99 * std::max(relative_gap * upper, kQualityGap);
@@ -96,7 +96,7 @@ std::optional<QualityBounds> GrowFrom(const ShiftedWrenches<kDim>& wrenches, con
   if (core > kLeastCore && upper <= 2 * core) return std::nullopt;
   const double residual = hull.Residual();
   if (!(residual <= kLargestResidual * relative_gap)) return std::nullopt;
-  // A facet with a corner of the simplex is at most that far away.
+  // A plane through a corner of the simplex is at most that far away.
   if (lower <= core) lower = 0;
   return QualityBounds{std::clamp((1 - residual) * lower, 0.0, upper), upper, facets};
 }

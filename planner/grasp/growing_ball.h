@@ -25,7 +25,7 @@ using LoadVector = std::optional<Eigen::Matrix<double, kDim, 1>>;
 
 /// Bound the radius of the largest ball about the origin inside the wrenches of contacts with
 /// Σ n_i·f_i ≤ 1, shifted by a load.
-/// One hull of wrenches grows at its facet nearest to the origin (GrowingHull).
+/// One hull of wrenches grows at its plane nearest to the origin (GrowingHull).
 /// @param contacts  contacts with the rims of unit normal forces.
 /// @param load      load of the grasp; none: 0.
 /// @param friction  friction coefficient.

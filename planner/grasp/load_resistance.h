@@ -23,8 +23,10 @@ struct LoadResistance {
 /// The method is that of BoundQuality, which is the case without a load. The lower bound is
 /// certified up to rounding.
 ///
-/// Laws: independent of order and rigid motion; never decreases with friction_angle, total_normal
-/// or more contacts; concave in the load; proportional to load and total_normal together.
+/// Laws:
+/// - Independent of order and rigid motion.
+/// - Never decreases with friction_angle, total_normal or more contacts.
+/// - Concave in the load, and proportional to load and total_normal together.
 /// @param relative_gap  largest (upper − lower) / upper, at least kLeastRelativeGap.
 /// @throws std::invalid_argument  as TestForceClosure, if the load is not finite, or if
 ///     total_normal is not > 0.

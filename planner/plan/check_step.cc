@@ -466,8 +466,7 @@ StepCheck CheckHold(const CheckContext& context) {
   if (fault.none()) {
     BeginForceClosure(context, check);
     const HandPath path = PathFrom(context.state, {});
-    check.ends_supported =
-        IncludeRest(context, initial, "the initial grasp", path, check, fault);
+    check.ends_supported = IncludeRest(context, initial, "the initial grasp", path, check, fault);
     AddObstacle(FindRestObstacle(context.object, initial, context.least_radius()), fault);
   }
   return Finish(check, fault);
@@ -502,8 +501,7 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
     BeginForceClosure(context, check);
     const SwitchMotion motion = step.motion.value_or(SwitchMotion());
     const HandPath place = PathFrom(context.state, motion.place);
-    const HandPath release =
-        PathFrom(place.empty() ? nullptr : &place.back(), motion.release);
+    const HandPath release = PathFrom(place.empty() ? nullptr : &place.back(), motion.release);
     (void)IncludeRest(context, before, "the grasp before the step", place, check, fault);
     check.ends_supported =
         IncludeRest(context, after, "the grasp after the step", release, check, fault);
@@ -540,7 +538,8 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    (void)IncludeRest(context, step.waypoints.front(), "the grasp before the step", {}, check, fault);
+    (void)IncludeRest(context, step.waypoints.front(), "the grasp before the step", {}, check,
+                      fault);
     (void)IncludeRest(context, step.waypoints.back(), "the grasp after the step", {}, check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
       IncludeMotion(context, step, static_cast<int>(w), check, fault);

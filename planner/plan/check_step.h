@@ -79,7 +79,7 @@ struct CheckContext {
   motion::ProofBudget& bounds;     ///< budget for the required friction angles of all sliding steps
   double finger_radius = 0;        ///< radius in the object's unit of length; 0: points
   bool allow_undecided = false;    ///< as in CheckOptions
-  bool judge_force_closure = true;  ///< as in CheckOptions
+  bool judge_force_closure = true;         ///< as in CheckOptions
   const WeightCarrier* carrier = nullptr;  ///< null: every grasp must be force closure
   const HandState* state = nullptr;        ///< state before the step; null without a hand
 

@@ -124,10 +124,8 @@ double LargestGraspForce(double weight) { return std::max(kMostWeights * weight,
 
 double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid, double scale,
                         const plan::HandState& state, const plan::FingerGrasp& grasp,
-                        double friction_angle, double weight, double most,
-                        bool may_be_supported) {
-  const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight,
-                       may_be_supported);
+                        double friction_angle, double weight, double most, bool may_be_supported) {
+  const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight, may_be_supported);
   const double allowed = LargestForce(
       most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; });
   const double unloaded = held.StiffnessAt(most, 0);

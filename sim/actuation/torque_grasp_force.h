@@ -32,8 +32,7 @@ namespace regrasp::sim {
 [[nodiscard]] double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid,
                                       double scale, const plan::HandState& state,
                                       const plan::FingerGrasp& grasp, double friction_angle,
-                                      double weight, double most,
-                                      bool may_be_supported = false);
+                                      double weight, double most, bool may_be_supported = false);
 
 /// Return the largest grasp force of any static grasp, newtons.
 /// It is kMostWeights times the weight and at least kEnough.

@@ -28,9 +28,8 @@ Grasp Table(double radius, double height, int count = 3) {
   Grasp grasp;
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
-    grasp.push_back({{radius * std::cos(angle), radius * std::sin(angle), -height},
-                     Vector3d::UnitZ(),
-                     {}});
+    grasp.push_back(
+        {{radius * std::cos(angle), radius * std::sin(angle), -height}, Vector3d::UnitZ(), {}});
   }
   return grasp;
 }
@@ -42,7 +41,7 @@ double Resistance(const Grasp& grasp, double most, double friction = kFriction,
   return BoundLoadResistance(grasp, frame, friction, Weight(), most).lower;
 }
 
-/// Three feet on the table, with little friction to spare in all other directions: a torque about a
+/// Three feet on the table, with friction that resists in all other directions: a torque about a
 /// horizontal axis lifts a foot off when the weight times the inscribed radius is exceeded.
 TEST(LoadResistanceTest, AnObjectOnThreeFeetTiltsAtTheInscribedRadius) {
   const double circumscribed = 0.4;
@@ -101,8 +100,7 @@ TEST(LoadResistanceTest, ForcesExistWithinTheRadiusAndSomeDisturbanceBeyondItHas
     const Grasp grasp = random.OnBall(3 + trial % 2, 3, 0.6);
     const Wrench load{kWeight * random.Direction(3), Vector3d::Zero()};
     const double most = 6 * kWeight;
-    const LoadResistance bounds =
-        BoundLoadResistance(grasp, kFrame, kFriction, load, most, 1e-3);
+    const LoadResistance bounds = BoundLoadResistance(grasp, kFrame, kFriction, load, most, 1e-3);
     const auto is_balanced = [&](const Vector3d& force, const Vector3d& torque) {
       const Wrench all{load.force + force, load.torque_over_radius + torque};
       return ComputeSupportForces(grasp, kFrame, kFriction, all, most).balanced;
@@ -118,7 +116,8 @@ TEST(LoadResistanceTest, ForcesExistWithinTheRadiusAndSomeDisturbanceBeyondItHas
       Eigen::Matrix<double, 6, 1> d;
       for (double& x : d) x = random.Uniform(-1, 1);
       d.normalize();
-      EXPECT_TRUE(is_balanced(0.999 * bounds.lower * d.head<3>(), 0.999 * bounds.lower * d.tail<3>()));
+      EXPECT_TRUE(
+          is_balanced(0.999 * bounds.lower * d.head<3>(), 0.999 * bounds.lower * d.tail<3>()));
       fails_beyond = fails_beyond ||
                      !is_balanced(4 * bounds.upper * d.head<3>(), 4 * bounds.upper * d.tail<3>());
     }
@@ -196,7 +195,8 @@ TEST(LoadResistanceTest, SupportForcesOfAForceClosureGraspUseAllForce) {
 TEST(LoadResistanceTest, BadArgumentsAreRejected) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Grasp table = Table(0.9, 0.1);
-  EXPECT_THROW((void)BoundLoadResistance({}, kFrame, kFriction, Weight(), 9), std::invalid_argument);
+  EXPECT_THROW((void)BoundLoadResistance({}, kFrame, kFriction, Weight(), 9),
+               std::invalid_argument);
   EXPECT_THROW((void)BoundLoadResistance(table, kFrame, 2, Weight(), 9), std::invalid_argument);
   EXPECT_THROW((void)BoundLoadResistance(table, kFrame, kFriction, Weight(), 0),
                std::invalid_argument);
