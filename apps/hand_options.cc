@@ -214,6 +214,11 @@ void HandOptions::AddTo(CLI::App& app) {
                  "the six axes with a plan. The plan records the direction. A leading minus sign "
                  "requires --gravity=-z [default: opposite to `up` of the hand file]")
       ->type_name("DIRECTION|any");
+  AddChoice<bool>(app, "--closure", gravity_support, {{"force", false}, {"gravity", true}},
+                  "How grasps hold the object [default: force]\n"
+                  "force: every grasp is force closure\n"
+                  "gravity: a grasp may also hold the object by its weight, with forces of up to 9 "
+                  "weights, against disturbances of 0.1 weights");
   app.add_option("--continue", continue_plan,
                  "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")
@@ -247,6 +252,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
                                       {"--goal-tolerance", goal_tolerance},
                                       {"--goals", goals},
                                       {"--gravity", gravity},
+                                      {"--closure", gravity_support ? "gravity" : ""},
                                       {"--continue", continue_plan}}) {
     if (given() || value.empty()) continue;
     throw InputError(std::string(option) + " requires --hand");
@@ -310,6 +316,7 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
     up = ParseGravity(gravity);
     task.ups = {up};
   }
+  if (gravity_support) task.gravity_support.emplace();
   if (!goal_facing.empty()) task.goal = ParseFacing(goal_facing, up);
   if (!goals.empty() && task.hand != nullptr) task.goals = plan::ReadGoalList(goals, up);
 }

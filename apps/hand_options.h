@@ -17,9 +17,10 @@ struct HandOptions {
   std::string goal_pose;
   std::string goal_facing;
   std::string goal_tolerance;
-  std::string goals;          ///< file of goals; empty: none
-  std::string gravity;        ///< direction, or any; empty: that of the hand
-  std::string continue_plan;  ///< plan whose end is the start; empty: none
+  std::string goals;             ///< file of goals; empty: none
+  std::string gravity;           ///< direction, or any; empty: that of the hand
+  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
+  std::string continue_plan;     ///< plan whose end is the start; empty: none
   double clearance_m = 1e-3;
   /// Required robustness, and the conditions of the simulated execution.
   struct Robustness {

@@ -172,6 +172,7 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
     if (continued) {
       CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
       gait::StartFrom(plan::EndOfPlan(*continued), task);
+      if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
     }
     gait::AskInHand(task, request);
   }
@@ -261,7 +262,7 @@ void PlanProgram::Finish(const CLI::App& app) {
   }
   for (const char* name :
        {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
-        "--goals", "--gravity", "--continue", "--robustness"}) {
+        "--goals", "--gravity", "--closure", "--continue", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }

@@ -55,6 +55,7 @@ struct HandArguments {
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   /// Unit vectors against gravity in the palm frame, to try in this order; empty: the hand's own.
   std::vector<Eigen::Vector3d> ups;
+  bool gravity_support = false;      ///< whether grasps may hold the object by its weight
   std::optional<std::string> goals;  ///< text of a file of goals
   std::string goals_name;            ///< name of this text in messages
   double clearance = 1e-3;
@@ -94,6 +95,8 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .goal = GoalOf(given),
           .goals = GoalsOf(given, hand),
           .ups = given.ups,
+          .gravity_support =
+              given.gravity_support ? std::optional(plan::GravitySupport()) : std::nullopt,
           .simulate = sim::ExecutionSimulator(
               hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
@@ -210,6 +213,7 @@ void BindPlans(py::module_& module) {
       .def_readwrite("start_pose", &HandArguments::start_pose)
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("ups", &HandArguments::ups)
+      .def_readwrite("gravity_support", &HandArguments::gravity_support)
       .def_readwrite("goals", &HandArguments::goals)
       .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)

@@ -60,6 +60,22 @@ void AddHandWarnings(const Report& report, std::vector<std::string>& warnings) {
   }
 }
 
+/// State in how many static grasps only gravity keeps the object on the fingers.
+void AddSupportWarning(const Report& report, std::vector<std::string>& warnings) {
+  const auto supported = std::ranges::count_if(
+      report.steps, [](const ReportStep& step) { return step.check.ends_supported; });
+  std::optional<double> resistance;
+  for (const ReportStep& step : report.steps) {
+    if (!step.check.resistance) continue;
+    resistance = std::min(*step.check.resistance, resistance.value_or(*step.check.resistance));
+  }
+  if (!resistance) return;
+  warnings.push_back("gravity-supported in " + std::to_string(supported) + " of " +
+                     CountedText(std::ssize(report.steps), "static grasp") +
+                     ": not force closure, resists disturbances of " + FormatShort(*resistance, 2) +
+                     " weights of the object");
+}
+
 }  // namespace
 
 std::string_view VerdictName(Verdict verdict) {
@@ -119,6 +135,7 @@ std::vector<std::string> Warnings(const Report& report) {
       warnings.push_back(name + ": invalid certificate in the plan: " + step.certificate->why);
     }
   }
+  AddSupportWarning(report, warnings);
   AddHandWarnings(report, warnings);
   return warnings;
 }

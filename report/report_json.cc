@@ -263,8 +263,14 @@ Json MakeSettings(const Report& report) {
 Json MakeForceClosure(const ReportStep& step) {
   if (step.check.skipped) return nullptr;
   const auto& required = step.check.required;
-  return {{"holds", step.check.force_closure},
-          {"required_half_angle_deg", required ? Json(Degrees(required->upper)) : Json(nullptr)}};
+  Json json = {
+      {"holds", step.check.force_closure},
+      {"required_half_angle_deg", required ? Json(Degrees(required->upper)) : Json(nullptr)}};
+  if (step.check.is_supported) {
+    json["gravity_supported"] = {{"static_grasp", step.check.ends_supported},
+                                 {"resistance_weights", OrNull(step.check.resistance)}};
+  }
+  return json;
 }
 
 Json MakeWeakestFinger(const ReportStep& step, double friction_angle) {

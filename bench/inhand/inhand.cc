@@ -46,6 +46,7 @@ struct InHandProgram {
   std::string meshes;
   std::vector<std::string> only;
   double limit_s = bench::ScoreRun().limit_s;
+  bool gravity = false;
   int jobs = 1;
   bool list = false;
   bool quiet = false;
@@ -83,6 +84,9 @@ void InHandProgram::AddTo(CLI::App& app) {
       ->type_name("FOLDER");
   apps::AddNumber(app, "--limit", limit_s, {0, kLongest_s, false, true},
                   "Processor time per task, seconds [default: 8]", "S");
+  app.add_flag("--gravity-support", gravity,
+               "Let gravity support grasps (plan --closure gravity). Requires a results file of "
+               "its own");
   apps::AddInteger(app, "--jobs", jobs, 1, kMostJobs, "Number of parallel tasks [default: 1]");
   app.add_option("--task", task, "Task for which --plan is validated")->type_name("NAME");
   app.add_option("--plan", plan, "Plan file to validate")->type_name("FILE");
@@ -156,7 +160,13 @@ void InHandProgram::WriteBodies() const {
 }
 
 int InHandProgram::RunTasks() const {
-  const bench::ScoreRun run{bench::ChainsOf(tasks_, only), &bodies_, &hands_, limit_s, plans};
+  bench::ScoreRun run;
+  run.chains = bench::ChainsOf(tasks_, only);
+  run.bodies = &bodies_;
+  run.hands = &hands_;
+  run.limit_s = limit_s;
+  run.plans = plans;
+  if (gravity) run.gravity_support.emplace();
   if (run.chains.empty()) throw InputError("--only: no task has such a name or group");
   apps::ProgressLine line(quiet);
   apps::ProgressLog log(kProgram, quiet);

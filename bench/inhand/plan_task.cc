@@ -77,12 +77,14 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
 /// the result of the first formulation. A result whose plans fail in simulation takes precedence
 /// over other failures.
 planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
-                           const std::optional<TaskStart>& start, const Deadline& deadline) {
+                           const std::optional<TaskStart>& start, const Deadline& deadline,
+                           const std::optional<plan::GravitySupport>& support) {
   planning::PlanRequest request;
   request.object = &body.solid();
   request.object_name = body.file.file;
   request.criteria.friction_angle = std::atan(kFriction);
-  const auto ways = InHandTasksOf(hand, body, task, start, request.criteria);
+  auto ways = InHandTasksOf(hand, body, task, start, request.criteria);
+  for (planning::InHandTask& way : ways) way.gravity_support = support;
   planning::PlanResult found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     gait::AskInHand(ways[i], request);
@@ -114,11 +116,13 @@ TaskStart EndOf(const plan::Plan& plan) {
 }
 
 PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
-                     const std::optional<TaskStart>& start, double limit_s) {
+                     const std::optional<TaskStart>& start, double limit_s,
+                     const std::optional<plan::GravitySupport>& support) {
   PlannedTask planned;
   const double begin = ProcessorSeconds();
   try {
-    planning::PlanResult result = Solve(hand, body, task, start, ProcessorDeadline(limit_s));
+    planning::PlanResult result =
+        Solve(hand, body, task, start, ProcessorDeadline(limit_s), support);
     planned.seconds = ProcessorSeconds() - begin;
     planned.plan = std::move(result.plan);
     planned.message = std::move(result.message);

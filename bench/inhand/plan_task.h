@@ -36,8 +36,10 @@ struct PlannedTask {
 /// @param start    initial state; none: chosen by the planner. A task that moves the centroid
 ///     begins in a pose with good reach, or passes such a pose half-way.
 /// @param limit_s  processor time limit, s.
+/// @param support  set if grasps may hold the object by its weight.
 [[nodiscard]] PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body,
                                    const Task& task, const std::optional<TaskStart>& start,
-                                   double limit_s);
+                                   double limit_s,
+                                   const std::optional<plan::GravitySupport>& support = {});
 
 }  // namespace regrasp::bench

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "bench/hand_bodies.h"
 #include "bench/inhand/row.h"
 #include "bench/inhand/task.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::bench {
 
@@ -18,6 +20,8 @@ struct ScoreRun {
   const std::vector<HandBody>* bodies = nullptr;
   const std::vector<kinematics::HandFile>* hands = nullptr;
   double limit_s = 8;  ///< processor time to plan one task, s
+  /// Whether grasps may hold the object by its weight.
+  std::optional<plan::GravitySupport> gravity_support = {};
   /// folder of plan files, with a subfolder for each hand; empty: not written
   std::filesystem::path plans;
 };

@@ -116,6 +116,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotio
       memory_(memory),
       random_(random),
       checker_(checker),
+      supported_(setup, grid, memory),
       routes_(memory),
       successors_(setup, checker, goal_, routes_, max_holding_ > kFewestHolding),
       clusters_(setup.points),
@@ -129,6 +130,7 @@ GaitSearch::GaitSearch(const HandSetup& setup, const PoseGrid& grid, ObjectMotio
           !ends.start.empty() && ends.start_configurations.empty()),
       simulation_(grid, tree_) {
   counts_.steps = grid.steps();
+  if (setup.carrier != nullptr) checker.RequireSupport(supported_);
   if (ends.goal.empty()) return;
   ForEachAssignment(ends.goal, setup.scene.finger_count(), [&](ContactAssignment assignment) {
     if (!AreHeldBy(ends.goal_fingers, ends.goal, assignment)) return;
@@ -163,14 +165,14 @@ void GaitSearch::StartFrom(const Stance& stance) {
   is_started_ = true;
 }
 
-bool GaitSearch::IsGrasp(const ContactAssignment& assignment) {
+bool GaitSearch::IsGrasp(const ContactAssignment& assignment, int node) {
   criteria::ContactSet set;
   for (const int point : assignment) {
     if (point == kNone) continue;
     if (set.Has(point)) return false;
     set.Insert(point);
   }
-  return set.size() >= kFewestHolding && memory_.Admits(set);
+  return set.size() >= kFewestHolding && supported_.Holds(set, node);
 }
 
 GaitSearch::RolledTo GaitSearch::RollTowards(const StanceNode& stance_node, int node) {
@@ -227,7 +229,7 @@ bool GaitSearch::IsQueued(const ContactAssignment& assignment, int node) const {
 }
 
 bool GaitSearch::Add(StanceNode stance_node) {
-  if (!IsGrasp(stance_node.stance.assignment) ||
+  if (!IsGrasp(stance_node.stance.assignment, stance_node.node) ||
       IsQueued(stance_node.stance.assignment, stance_node.node))
     return false;
   QueuedGrasp& queued =
@@ -304,7 +306,7 @@ void GaitSearch::AddInitialStances() {
 std::optional<double> GaitSearch::ScoreAfter(const StanceNode& from, const ContactAssignment& to,
                                              int node) {
   const int count = CountHoldingFingers(to);
-  if (count < kFewestHolding || count > max_holding_ || !IsGrasp(to)) return std::nullopt;
+  if (count < kFewestHolding || count > max_holding_ || !IsGrasp(to, node)) return std::nullopt;
   int last = grid_.steps();
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {
     if (to[finger] == kNone) continue;

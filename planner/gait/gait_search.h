@@ -220,7 +220,7 @@ class GaitSearch {
   /// Evaluate and queue a stance if it is admissible, new and collision-free.
   /// @returns whether it was queued.
   bool Add(StanceNode stance_node);
-  [[nodiscard]] bool IsGrasp(const ContactAssignment& assignment);
+  [[nodiscard]] bool IsGrasp(const ContactAssignment& assignment, int node);
   /// Roll the fingertips while the object moves towards a grid node.
   /// Without rolling, return the grid node itself.
   [[nodiscard]] RolledTo RollTowards(const StanceNode& stance_node, int node);
@@ -250,6 +250,7 @@ class GaitSearch {
   criteria::GraspMemory& memory_;
   RandomStream& random_;
   ObjectMotionChecker& checker_;
+  SupportedGrasps supported_;
   SlideRoutes routes_;
   SuccessorGenerator successors_;
   ContactClusters clusters_;

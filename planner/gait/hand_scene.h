@@ -13,6 +13,7 @@
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/hand_model.h"
+#include "planner/plan/gravity_support.h"
 
 namespace regrasp::gait {
 
@@ -192,6 +193,8 @@ struct HandSetup {
   const collision::BallContact* rolled_on = nullptr;
   /// Required force margin under the object's weight at rolled contacts (RollingTips).
   double force_margin = 0;
+  /// Decides whether grasps hold the object by its weight; null: they must be force closure.
+  const plan::WeightCarrier* carrier = nullptr;
   bool may_slide = true;  ///< whether holding fingers may slide
   int fewest_beside_sliding =
       0;  ///< minimum number of stationary holding fingers during a sliding step

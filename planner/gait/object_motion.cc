@@ -129,6 +129,7 @@ bool ObjectMotionChecker::KeepsApart(const Stance& stance, FingerIndex finger, i
 
 bool ObjectMotionChecker::IsPassable(const Stance& stance, int node) {
   if (!KeepsOffPalm(node)) return false;
+  if (supported_ != nullptr && !supported_->Holds(stance.assignment, node)) return false;
   std::vector<FingerIndex> holding_fingers;
   std::vector<FingerIndex> idle_fingers;
   for (FingerIndex finger{0}; finger < setup_.scene.finger_count(); ++finger) {

@@ -11,6 +11,7 @@
 #include "planner/gait/gait.h"
 #include "planner/gait/hand_scene.h"
 #include "planner/gait/pose_grid.h"
+#include "planner/gait/supported_grasps.h"
 
 namespace regrasp::gait {
 
@@ -63,6 +64,11 @@ class ObjectMotionChecker {
         reach_(setup.scene, setup.inverse, setup.points, grid) {}
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
+
+  /// Let stances pass only at grid nodes at which they hold the object. Without it, the caller
+  /// tests force closure of stances, because it does not depend on the pose.
+  /// @param grasps  outlives this object.
+  void RequireSupport(SupportedGrasps& grasps) { supported_ = &grasps; }
 
   /// Return the keyframe of a stance at a grid node.
   /// @param node  grid node at which all holding fingers reach their contacts.
@@ -118,6 +124,7 @@ class ObjectMotionChecker {
   const PoseGrid& grid_;
   const IdleConfigurations& idle_configurations_;
   ReachMap reach_;
+  SupportedGrasps* supported_ = nullptr;  ///< null: not tested
   // Caches, filled on demand: there are many grasps, but they consist of few contacts.
   std::unordered_map<int, bool> off_palm_;  ///< cached clearance of the palm, by grid node
   std::unordered_map<std::size_t, bool>

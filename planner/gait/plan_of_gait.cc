@@ -69,6 +69,23 @@ void MarkGoal(const Gait& gait, const GaitRequest& request, plan::Plan& plan) {
   plan.hand->goals.push_back({"", static_cast<int>(plan.steps.size()), *goal});
 }
 
+/// Return whether a grasp that gravity supports at the start of a path is supported at all its
+/// poses. Other grasps are force closure.
+bool KeepsSupport(const HandSetup& setup, const ContactAssignment& assignment,
+                  const std::vector<Keyframe>& path) {
+  if (setup.carrier == nullptr) return true;
+  grasp::Grasp contacts;
+  for (const int point : assignment) {
+    if (point == kNone) continue;
+    contacts.push_back({setup.points[point].p / setup.scale, setup.points[point].n, {}});
+  }
+  if (!setup.carrier->HoldsAt(contacts, path.front().pose)) return true;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (!setup.carrier->HoldsBetween(contacts, path[i].pose, path[i + 1].pose)) return false;
+  }
+  return true;
+}
+
 /// Return whether a segment belongs to the same plan step as the previous one.
 /// True if a finger is placed and then another one is released.
 bool BelongTogether(const std::vector<PlanSegment>& segments, std::size_t i) {
@@ -95,7 +112,9 @@ Gait MergeMoves(const HandSetup& setup, const Gait& gait) {
     if (setup.rolled_on == nullptr) {
       if (IsSameKeyframe(move.path.front(), move.path.back())) continue;
       auto straight = FindMove(setup, AssignmentAtEnd(fewer), move.path.front(), move.path.back());
-      if (straight) move.path = *std::move(straight);
+      if (straight && KeepsSupport(setup, AssignmentAtEnd(fewer), *straight)) {
+        move.path = *std::move(straight);
+      }
     }
     fewer.segments.push_back(std::move(move));
   }
@@ -114,7 +133,8 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
   plan.hand =
       plan::HandUse{hand.name, hand.file, hand.sha256, StateOf(gait.start, hand),
                     (gait.segments.empty() ? gait.start : gait.segments.back().path.back()).pose};
-  if (!hand.has_own_up) plan.hand->up = hand.up;
+  if (!hand.has_own_up || request.gravity_support) plan.hand->up = hand.up;
+  plan.hand->gravity_support = request.gravity_support;
   for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});

@@ -31,7 +31,7 @@ bool RollingTips::AreGrasp(const RolledTips& tips, const Eigen::Isometry3d& pose
   }
   criteria::KnownGrasp known;
   if (!memory_.GraspEvaluator::Admits(known, [&] { return std::span(std::as_const(grasp)); })) {
-    return false;
+    return setup_.carrier != nullptr && setup_.carrier->HoldsAt(grasp, pose);
   }
   const grasp::Wrench weight{-(pose.linear().transpose() * setup_.scene.hand().up),
                              Eigen::Vector3d::Zero()};

@@ -31,9 +31,22 @@ typename WrenchSimplex<kDim>::Vector ToVector(const Eigen::Vector3d& force,
   }
 }
 
+/// Sum of the normal forces.
+enum class NormalSum {
+  kTotal,   ///< the total normal force
+  kAtMost,  ///< at most the total normal force
+};
+
+/// Return contacts with one more, which applies no wrench. It takes the part of the total normal
+/// force that the others do not use.
+UnitContacts WithSlack(UnitContacts contacts) {
+  contacts.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), 0, 0});
+  return contacts;
+}
+
 /// Compute forces in units of the total normal force.
 template <int kDim>
-GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
+GraspForces Solve(const UnitContacts& contacts, const Wrench& load, NormalSum sum) {
   using Simplex = WrenchSimplex<kDim>;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
@@ -42,7 +55,8 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
     force += share * contact.n;
     torque += share * contact.q.cross(contact.n);
   }
-  Simplex simplex(contacts, ToVector<kDim>(-load.force, -load.torque_over_radius));
+  const UnitContacts columns = sum == NormalSum::kAtMost ? WithSlack(contacts) : contacts;
+  Simplex simplex(columns, ToVector<kDim>(-load.force, -load.torque_over_radius));
   simplex.FindWeights(/*stop_early=*/false);
 
   GraspForces result;
@@ -61,10 +75,9 @@ GraspForces Solve(const UnitContacts& contacts, const Wrench& load) {
   return result;
 }
 
-}  // namespace
-
-GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::WrenchFrame& frame,
-                               double friction_angle, const Wrench& load, double total_normal) {
+GraspForces ComputeForces(std::span<const Contact> contacts, const object::WrenchFrame& frame,
+                          double friction_angle, const Wrench& load, double total_normal,
+                          NormalSum sum) {
   CheckGrasp(contacts, frame);
   CheckFrictionAngle(friction_angle);
   if (!(total_normal > 0) || !std::isfinite(total_normal)) {
@@ -77,10 +90,23 @@ GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::
   SetUnitNormalForces(units, friction_angle);
   const Wrench unit_load{load.force / total_normal, load.torque_over_radius / total_normal};
   GraspForces result =
-      frame.dimension == 3 ? Solve<6>(units, unit_load) : Solve<3>(units, unit_load);
+      frame.dimension == 3 ? Solve<6>(units, unit_load, sum) : Solve<3>(units, unit_load, sum);
   for (Eigen::Vector3d& force : result.forces) force *= total_normal;
   for (double& torque : result.torques) torque *= total_normal * frame.radius;
   return result;
+}
+
+}  // namespace
+
+GraspForces ComputeGraspForces(std::span<const Contact> contacts, const object::WrenchFrame& frame,
+                               double friction_angle, const Wrench& load, double total_normal) {
+  return ComputeForces(contacts, frame, friction_angle, load, total_normal, NormalSum::kTotal);
+}
+
+GraspForces ComputeSupportForces(std::span<const Contact> contacts,
+                                 const object::WrenchFrame& frame, double friction_angle,
+                                 const Wrench& load, double most_normal) {
+  return ComputeForces(contacts, frame, friction_angle, load, most_normal, NormalSum::kAtMost);
 }
 
 namespace {

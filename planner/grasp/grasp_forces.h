@@ -45,6 +45,18 @@ struct GraspForces {
                                              double friction_angle, const Wrench& load,
                                              double total_normal);
 
+/// Compute the contact forces of at most `most_normal` that balance a load.
+/// As ComputeGraspForces, but with Σ n_i·f_i ≤ most_normal: fingers that carry an object from below
+/// cannot press against each other, so that the sum of their normal forces follows from the load.
+/// The forces have the largest margin; for a force-closure grasp their sum is most_normal.
+/// @param most_normal  largest sum of the normal forces, newtons, > 0. The margin is relative to
+/// it.
+/// @throws std::invalid_argument  as ComputeGraspForces.
+[[nodiscard]] GraspForces ComputeSupportForces(std::span<const Contact> contacts,
+                                               const object::WrenchFrame& frame,
+                                               double friction_angle, const Wrench& load,
+                                               double most_normal);
+
 /// Contact of a grasp whose fingertip slides along the surface.
 struct SlidingContact {
   int contact = 0;  ///< index of the contact in the grasp

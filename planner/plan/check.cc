@@ -20,7 +20,7 @@ StepCheck CheckStep(const CheckContext& context, const FingerGrasp& before, cons
   if (const auto* finger_switch = std::get_if<Switch>(&step)) {
     return CheckSwitch(context, before, *finger_switch);
   }
-  if (std::holds_alternative<Move>(step)) return CheckMove(context, before);
+  if (const auto* move = std::get_if<Move>(&step)) return CheckMove(context, before, *move);
   return CheckAlign(context, before, std::get<Align>(step));
 }
 
@@ -197,6 +197,13 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
   motion::ProofBudget bounds = BudgetOf(plan);
   const double friction_angle = options.friction_angle.value_or(plan.friction_angle);
   StaticGraspClosure static_grasps(object.wrench_frame(), friction_angle);
+  std::optional<WeightCarrier> carrier;
+  HandState state;
+  if (plan.hand) state = plan.hand->initial;
+  if (plan.hand && plan.hand->gravity_support && plan.hand->up) {
+    carrier.emplace(object.wrench_frame(), friction_angle, *plan.hand->gravity_support,
+                    *plan.hand->up);
+  }
   const CheckContext context{
       object,
       result.projected,
@@ -206,7 +213,9 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
       bounds,
       options.finger_radius ? *options.finger_radius : plan.finger_radius.value_or(0),
       options.allow_undecided,
-      options.judge_force_closure};
+      options.judge_force_closure,
+      carrier ? &*carrier : nullptr,
+      &state};
   result.steps.push_back(CheckHold(context));
   CheckPoints(context, options, {}, result.steps.back());
   CheckStart(context, options, result.steps.back());
@@ -223,6 +232,7 @@ PlanCheck CheckPlan(const object::Object& object, const Plan& plan, const CheckO
     CheckPoints(context, options, holding, result.steps.back());
     TakeHandFault(options, result.steps.back());
     holding = GraspAfter(holding, step);
+    state = StateAfter(state, step);
   }
   CheckGoal(context, options, holding, result.steps.back());
   return result;

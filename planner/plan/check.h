@@ -29,6 +29,15 @@ struct StepCheck {
   /// none. If proofs alone make `force_closure` true, `upper` is at most the friction angle of the
   /// plan.
   std::optional<grasp::RequiredFrictionAngle> required;
+  /// Whether a grasp of the step that is not force closure is gravity-supported (WeightCarrier).
+  /// `force_closure` is then false, and `required` includes the friction angle at which it is
+  /// supported.
+  bool is_supported = false;
+  /// Whether this applies to the static grasp after the step.
+  bool ends_supported = false;
+  /// Size of the disturbances that the gravity-supported grasps of the step resist, a lower bound
+  /// in weights of the object; nullopt if there are none.
+  std::optional<double> resistance;
   /// Number of intervals of a sliding step's path with undecided force closure, each at most 1e-6
   /// of the path between two waypoints. They have no proof, and no instant that is not force
   /// closure. They fail the step (kNotProved) unless CheckOptions::allow_undecided is set.

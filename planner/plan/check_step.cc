@@ -1,8 +1,10 @@
 #include "planner/plan/check_step.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "planner/base/number.h"
 #include "planner/grasp/force_closure.h"
@@ -208,21 +210,77 @@ void IncludePatches(const CheckContext& context, const FingerGrasp& grasp, const
             LossOfClosure(context, grasp, required));
 }
 
+/// Return whether gravity keeps the object on the fingers of a grasp at all poses of a path.
+bool IsSupported(const CheckContext& context, const grasp::Grasp& contacts,
+                 std::span<const HandState> path) {
+  if (!context.carrier->HoldsAt(contacts, path.front().pose)) return false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (!context.carrier->HoldsBetween(contacts, path[i].pose, path[i + 1].pose)) return false;
+  }
+  return true;
+}
+
+/// Include a grasp that is not force closure, if it is gravity-supported.
+/// @param path  states of the hand while it holds the object with this grasp.
+/// @returns whether it is.
+bool IncludeSupported(const CheckContext& context, const FingerGrasp& grasp,
+                      std::span<const HandState> path, StepCheck& check) {
+  if (context.carrier == nullptr || path.empty() || grasp.empty()) return false;
+  const grasp::Grasp contacts = ContactsOf(grasp);
+  if (!IsSupported(context, contacts, path)) return false;
+  check.force_closure = false;
+  check.is_supported = true;
+  for (const Eigen::Isometry3d& pose : {path.front().pose, path.back().pose}) {
+    check.required =
+        Larger(check.required, context.carrier->RequiredFrictionAngleAt(contacts, pose));
+    const double resistance = context.carrier->ResistanceAt(contacts, pose).lower;
+    check.resistance = std::min(resistance, check.resistance.value_or(resistance));
+  }
+  return true;
+}
+
+/// Return the note of a grasp that is neither force closure nor gravity-supported.
+std::string NotSupportedText(const CheckContext& context, const FingerGrasp& grasp,
+                             std::span<const HandState> path) {
+  if (context.carrier == nullptr || path.empty() || grasp.empty()) return "";
+  double least = std::numeric_limits<double>::infinity();
+  for (const HandState& state : path) {
+    least = std::min(least, context.carrier->ResistanceAt(ContactsOf(grasp), state.pose).lower);
+  }
+  return "; with the object's weight it resists disturbances of " + FormatShort(least, 2) +
+         " weights, expected at least " + FormatShort(context.carrier->support().disturbance);
+}
+
 /// Include a static grasp in a step's force closure and required friction angle.
-void IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
-                 StepCheck& check, StepFault& fault) {
-  if (!context.judge_force_closure) return;
+/// @param path  states of the hand while it holds the object with this grasp; empty: only force
+///     closure counts.
+/// @returns whether it is gravity-supported instead of force closure.
+bool IncludeRest(const CheckContext& context, const FingerGrasp& grasp, const char* name,
+                 std::span<const HandState> path, StepCheck& check, StepFault& fault) {
+  if (!context.judge_force_closure) return false;
   const auto& [holds, required] = context.static_grasps.Of(grasp);
+  if (!holds && IncludeSupported(context, grasp, path, check)) return true;
   check.required = Larger(check.required, required);
   check.force_closure = check.force_closure && holds;
   if (!holds) {
-    fault.Add(Reason::kNotForceClosure, std::string(name) + " " + AngleNeeded(context, required),
+    fault.Add(Reason::kNotForceClosure,
+              std::string(name) + " " + AngleNeeded(context, required) +
+                  NotSupportedText(context, grasp, path),
               LossOfClosure(context, grasp, required));
   } else if (!required) {
     LeaveUnproved(std::string(name) + ": no required friction angle below 90° is proved",
                   LossOfClosure(context, grasp, required), check, fault);
   }
   if (holds) IncludePatches(context, grasp, name, check, fault);
+  return false;
+}
+
+/// Return the states of a path after a state.
+HandPath PathFrom(const HandState* state, const HandPath& path) {
+  HandPath all;
+  if (state != nullptr) all.push_back(*state);
+  all.insert(all.end(), path.begin(), path.end());
+  return all;
 }
 
 void AddObstacle(const std::optional<Obstacle>& obstacle, StepFault& fault) {
@@ -407,7 +465,8 @@ StepCheck CheckHold(const CheckContext& context) {
   CheckCoincidence(context, initial, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    IncludeRest(context, initial, "the initial grasp", check, fault);
+    const HandPath path = PathFrom(context.state, {});
+    check.ends_supported = IncludeRest(context, initial, "the initial grasp", path, check, fault);
     AddObstacle(FindRestObstacle(context.object, initial, context.least_radius()), fault);
   }
   return Finish(check, fault);
@@ -440,19 +499,25 @@ StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before, co
   CheckCoincidence(context, after, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    IncludeRest(context, before, "the grasp before the step", check, fault);
-    IncludeRest(context, after, "the grasp after the step", check, fault);
+    const SwitchMotion motion = step.motion.value_or(SwitchMotion());
+    const HandPath place = PathFrom(context.state, motion.place);
+    const HandPath release = PathFrom(place.empty() ? nullptr : &place.back(), motion.release);
+    (void)IncludeRest(context, before, "the grasp before the step", place, check, fault);
+    check.ends_supported =
+        IncludeRest(context, after, "the grasp after the step", release, check, fault);
     AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }
   return Finish(check, fault);
 }
 
-StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before) {
+StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before, const Move& step) {
   StepCheck check;
   check.kind = StepKind(Move{});
   StepFault fault;
   BeginForceClosure(context, check);
-  IncludeRest(context, before, "the grasp of the in-hand motion", check, fault);
+  const HandPath path = PathFrom(context.state, step.path);
+  check.ends_supported =
+      IncludeRest(context, before, "the grasp of the in-hand motion", path, check, fault);
   return Finish(check, fault);
 }
 
@@ -473,8 +538,9 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
   if (fault.none()) CheckMotions(context, step, fault);
   if (fault.none()) {
     BeginForceClosure(context, check);
-    IncludeRest(context, step.waypoints.front(), "the grasp before the step", check, fault);
-    IncludeRest(context, step.waypoints.back(), "the grasp after the step", check, fault);
+    (void)IncludeRest(context, step.waypoints.front(), "the grasp before the step", {}, check,
+                      fault);
+    (void)IncludeRest(context, step.waypoints.back(), "the grasp after the step", {}, check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
       IncludeMotion(context, step, static_cast<int>(w), check, fault);
     }

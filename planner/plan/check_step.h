@@ -9,6 +9,7 @@
 #include "planner/object/object.h"
 #include "planner/object/wrench_frame.h"
 #include "planner/plan/check.h"
+#include "planner/plan/gravity_support.h"
 #include "planner/plan/plan.h"
 
 namespace regrasp::plan {
@@ -78,7 +79,9 @@ struct CheckContext {
   motion::ProofBudget& bounds;     ///< budget for the required friction angles of all sliding steps
   double finger_radius = 0;        ///< radius in the object's unit of length; 0: points
   bool allow_undecided = false;    ///< as in CheckOptions
-  bool judge_force_closure = true;  ///< as in CheckOptions
+  bool judge_force_closure = true;         ///< as in CheckOptions
+  const WeightCarrier* carrier = nullptr;  ///< null: every grasp must be force closure
+  const HandState* state = nullptr;        ///< state before the step; null without a hand
 
   [[nodiscard]] double tolerance() const { return object::kPointTolerance * object.diameter(); }
 
@@ -94,8 +97,10 @@ struct CheckContext {
 [[nodiscard]] StepCheck CheckHold(const CheckContext& context);
 [[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,
                                     const Switch& step);
-/// Check a move. The contacts do not change; the hand's motion is not checked here.
-[[nodiscard]] StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before);
+/// Check a move. The contacts do not change; the hand's motion is checked only for whether gravity
+/// keeps the object on the fingers.
+[[nodiscard]] StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before,
+                                  const Move& step);
 [[nodiscard]] StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before,
                                    const Align& step);
 

@@ -292,12 +292,30 @@ Eigen::Vector3d ReadUnitVector(const JsonReader& json) {
   return vector;
 }
 
+GravitySupport ReadGravitySupport(const JsonReader& json) {
+  constexpr double kMostWeights = 1000;
+  const JsonReader& disturbance = json.Member("disturbance");
+  const JsonReader& force = json.Member("force");
+  GravitySupport support{disturbance.Number(), force.Number()};
+  if (!(support.disturbance > 0 && support.disturbance < 1)) {
+    disturbance.Fail("expected a number between 0 and 1, found " + disturbance.Quoted());
+  }
+  if (!(support.force >= 1 && support.force <= kMostWeights)) {
+    force.Fail("expected a number from 1 to 1000, found " + force.Quoted());
+  }
+  return support;
+}
+
 HandUse ReadHandUse(const JsonReader& json) {
   HandUse hand{json.Member("name").String(), json.Member("file").String(),
                ReadSha256(json.Member("sha256")), ReadState(json.Member("initial")),
                ReadPose(json.Member("goal"))};
   if (json.Has("goals")) hand.goals = ReadGoalMarks(json.Member("goals"));
   if (json.Has("up")) hand.up = ReadUnitVector(json.Member("up"));
+  if (json.Has("gravity_support")) {
+    if (!hand.up) json.Fail("gravity_support requires up");
+    hand.gravity_support = ReadGravitySupport(json.Member("gravity_support"));
+  }
   return hand;
 }
 
@@ -320,6 +338,10 @@ Json HandUseJson(const HandUse& hand) {
                {"goal", PoseJson(hand.goal)}};
   if (!hand.goals.empty()) json["goals"] = GoalMarksJson(hand.goals);
   if (hand.up) json["up"] = VectorJson(*hand.up, 3);
+  if (hand.gravity_support) {
+    json["gravity_support"] = {{"disturbance", hand.gravity_support->disturbance},
+                               {"force", hand.gravity_support->force}};
+  }
   return json;
 }
 

@@ -63,6 +63,13 @@ struct GoalMark {
   GoalSet set;
 };
 
+/// Permission for static grasps that hold the object by its weight (gravity_support.h), and what
+/// such a grasp withstands. Both numbers are in weights of the object.
+struct GravitySupport {
+  double disturbance = 0.1;  ///< size of the disturbances that it resists, > 0
+  double force = 9;          ///< largest sum of its normal forces, ≥ 1
+};
+
 /// Hand of a plan, and its state at the initial grasp.
 struct HandUse {
   std::string name;
@@ -74,6 +81,8 @@ struct HandUse {
   std::vector<GoalMark> goals = {};
   /// Unit vector against gravity in the palm's frame, if it is not that of the hand's file.
   std::optional<Eigen::Vector3d> up = {};
+  /// Set if static grasps and in-hand motions need not be force closure; `up` is then set too.
+  std::optional<GravitySupport> gravity_support = {};
 };
 
 /// Finger switch: the `place` fingers, which are free, make contact; then the `release` fingers,

@@ -9,13 +9,13 @@
 #include "planner/base/deadline.h"
 #include "planner/base/index.h"
 #include "planner/plan/goal_set.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::kinematics {
 struct HandModel;
 }
 
 namespace regrasp::plan {
-struct Plan;
 enum class Reason;
 }  // namespace regrasp::plan
 
@@ -79,6 +79,8 @@ struct InHandTask {
   /// Unit vectors against gravity in the palm frame. The planner uses the first one with which it
   /// finds a plan. Empty: that of the hand.
   std::vector<Eigen::Vector3d> ups = {};
+  /// Set if grasps may hold the object by its weight instead of force closure.
+  std::optional<plan::GravitySupport> gravity_support = {};
   /// Fingers of the contacts of a given start grasp, in its order; empty: any fingers.
   std::vector<FingerIndex> start_fingers = {};
   /// Joint angles [finger][joint] at the start, radians (plan::HandState::joints); empty: any.

@@ -269,7 +269,12 @@ grasp::GraspForces HandControl::PlannedForces(const grasp::Grasp& contacts,
                                        {std::tan(angle), angle}, {down, Vector3d::Zero()},
                                        hold.grasp_force_N, normal);
   };
-  if (sliding.empty()) return plan(0);
+  if (sliding.empty()) {
+    const grasp::GraspForces squeezing = plan(0);
+    if (squeezing.balanced || !settings_.gravity_support) return squeezing;
+    return grasp::ComputeSupportForces(contacts, solid_.wrench_frame(), angle,
+                                       {down, Vector3d::Zero()}, hold.grasp_force_N);
+  }
   const double most = kMostSliding * hold.grasp_force_N / static_cast<double>(sliding.size());
   const auto margin = [&](double normal) { return plan(normal).margin; };
   return plan(grasp::ChooseSlidingNormal(std::min(kTouchForce, most), most, margin).normal);

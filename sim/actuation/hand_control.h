@@ -20,6 +20,7 @@ struct HandControlSettings {
   double friction_angle = 0;  ///< friction angle for planned forces, radians
   double weight_N = 0;        ///< assumed weight of the object
   HandSensing sensing = {};
+  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
 };
 
 /// A holding finger that slides along the surface.

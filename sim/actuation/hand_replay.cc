@@ -143,7 +143,8 @@ HandWorldOptions WorldOptions(const kinematics::HandModel& hand, const HandRepla
 }
 
 HandControlSettings ControlSettings(const plan::Plan& plan, const HandReplayOptions& options) {
-  return {plan.friction_angle, *options.mass_kg * kGravity, options.sensing};
+  return {plan.friction_angle, *options.mass_kg * kGravity, options.sensing,
+          plan.hand && plan.hand->gravity_support.has_value()};
 }
 
 /// Return the grasp force of each static grasp, newtons.

@@ -37,21 +37,25 @@ class HeldGrasp {
  public:
   HeldGrasp(HandEngine& world, const object::Polyhedron& solid, double scale,
             const plan::HandState& state, const plan::FingerGrasp& grasp, double friction_angle,
-            double weight)
+            double weight, bool may_be_supported)
       : world_(world),
         solid_(solid),
         pose_(state.pose),
         grasp_(grasp),
         contacts_(plan::ContactsOf(grasp)),
         scale_(scale),
-        friction_angle_(friction_angle) {
+        friction_angle_(friction_angle),
+        may_be_supported_(may_be_supported) {
     load_.force = -weight * (pose_.linear().transpose() * world.hand().up);
     world.Place(state);
   }
 
   [[nodiscard]] grasp::GraspForces ForcesAt(double grasp_force) const {
-    return grasp::ComputeGraspForces(contacts_, solid_.wrench_frame(), friction_angle_, load_,
-                                     grasp_force);
+    grasp::GraspForces forces = grasp::ComputeGraspForces(contacts_, solid_.wrench_frame(),
+                                                          friction_angle_, load_, grasp_force);
+    if (forces.balanced || !may_be_supported_) return forces;
+    return grasp::ComputeSupportForces(contacts_, solid_.wrench_frame(), friction_angle_, load_,
+                                       grasp_force);
   }
 
   /// Return the largest ratio of an actuator's torque to its limit.
@@ -96,6 +100,7 @@ class HeldGrasp {
   grasp::Grasp contacts_;
   double scale_;
   double friction_angle_;
+  bool may_be_supported_;
   grasp::Wrench load_;
 };
 
@@ -119,8 +124,8 @@ double LargestGraspForce(double weight) { return std::max(kMostWeights * weight,
 
 double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid, double scale,
                         const plan::HandState& state, const plan::FingerGrasp& grasp,
-                        double friction_angle, double weight, double most) {
-  const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight);
+                        double friction_angle, double weight, double most, bool may_be_supported) {
+  const HeldGrasp held(world, solid, scale, state, grasp, friction_angle, weight, may_be_supported);
   const double allowed = LargestForce(
       most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; });
   const double unloaded = held.StiffnessAt(most, 0);
@@ -140,7 +145,8 @@ std::vector<double> ComputeGraspForcesOfPlan(HandEngine& world, const object::Po
   std::vector<double> grasp_forces;
   for (const PlannedRest& rest : RestsOf(plan, entries)) {
     grasp_forces.push_back(StaticGraspForce(world, solid, plan.scale, rest.state, rest.grasp,
-                                            friction_angle, weight, LargestGraspForce(weight)));
+                                            friction_angle, weight, LargestGraspForce(weight),
+                                            plan.hand->gravity_support.has_value()));
   }
   return grasp_forces;
 }

@@ -27,10 +27,12 @@ namespace regrasp::sim {
 /// If only a grasp force below that of a force margin of kLeastMargin is stable, the result is the
 /// force with this margin instead. The replay then decides.
 /// @param grasp  contacts in the object's units, `scale` metres each.
+/// @param may_be_supported  whether the grasp may hold the object by its weight. The force is then
+///     an upper bound of the sum of its normal forces (grasp::ComputeSupportForces).
 [[nodiscard]] double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid,
                                       double scale, const plan::HandState& state,
                                       const plan::FingerGrasp& grasp, double friction_angle,
-                                      double weight, double most);
+                                      double weight, double most, bool may_be_supported = false);
 
 /// Return the largest grasp force of any static grasp, newtons.
 /// It is kMostWeights times the weight and at least kEnough.

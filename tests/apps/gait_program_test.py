@@ -306,6 +306,41 @@ class Gait(ProgramCase):
             self.assert_refused(2, ["bad.json", "/hand/up"], "--object", self.model("cube.obj"), "--plan", "bad.json",
                                 "--hand", ring5, program="validate")
 
+    def test_grasps_that_gravity_supports(self):
+        """Only a plan that permits them passes; the report counts them."""
+        ring4 = self.hand("ring4")
+        self.assert_done(*self.turn(ring4, 20), "--closure", "gravity", "--min-quality", "0.9", "--robustness", "none",
+                         "--output", "carried.json", program="plan")
+        plan = json.loads(self.read("carried.json"))
+        self.assertEqual(plan["hand"]["gravity_support"], {"disturbance": 0.1, "force": 9})
+        by_hand = ("--object", self.model("cube.obj"), "--hand", ring4, "--frames", "none")
+        self.run_program("--plan", "carried.json", *by_hand, "--output", "carried", program="validate")
+        report = json.loads(self.read("carried/report.json"))
+        supported = [step["force_closure"].get("gravity_supported") for step in report["steps"]
+                     if step["force_closure"] is not None]
+        self.assertTrue(any(one is not None and one["resistance_weights"] >= 0.1 for one in supported), supported)
+        for change in ({"gravity_support": None}, {"up": [0, 0, -1]}):
+            worse = json.loads(self.read("carried.json"))
+            for key, value in change.items():
+                worse["hand"][key] = value
+                if value is None:
+                    del worse["hand"][key]
+            self.write_json("worse.json", worse)
+            done = self.run_program("--plan", "worse.json", *by_hand, "--output", "worse", program="validate")
+            self.assertEqual(done.returncode, 1, change)
+            report = json.loads(self.read("worse/report.json"))
+            self.assertEqual(report["steps"][0]["reason"], "not-force-closure", change)
+        for key, value in (("disturbance", 0), ("disturbance", 2), ("force", 0.5), ("force", "9")):
+            bad = json.loads(self.read("carried.json"))
+            bad["hand"]["gravity_support"][key] = value
+            self.write_json("bad.json", bad)
+            self.assert_refused(2, ["bad.json", "/hand/gravity_support/" + key], "--plan", "bad.json", *by_hand,
+                                program="validate")
+        del bad["hand"]["up"]
+        bad["hand"]["gravity_support"] = {"disturbance": 0.1, "force": 9}
+        self.write_json("bad.json", bad)
+        self.assert_refused(2, "gravity_support requires up", "--plan", "bad.json", *by_hand, program="validate")
+
     def test_directions_of_gravity_that_are_refused(self):
         ring5 = self.hand("ring5")
         for more, words in ((("--gravity", "sideways"), '--gravity: expected a direction'),

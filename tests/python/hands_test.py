@@ -124,6 +124,12 @@ class HandsTest(RegraspCase):
             self.assertEqual(plan.data["hand"].get("up"), None if given == "any" else [0, 0, -1])
             self.assertTrue(regrasp.validate(self.cube, plan, hand=self.hand).passed)
 
+    def test_closure_of_the_plan(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30), closure="gravity")
+        support = plan.data["hand"]["gravity_support"]
+        self.assertEqual(support, {"disturbance": 0.1, "force": 9.0})
+        self.assertTrue(regrasp.validate(self.cube, plan, hand=self.hand).passed)
+
     def test_a_pickle_of_a_hand(self):
         again = pickle.loads(pickle.dumps(self.hand))
         self.assertEqual((again.name, again.joint_names), (self.hand.name, self.hand.joint_names))
@@ -160,6 +166,7 @@ class HandsTest(RegraspCase):
         plan("gravity", "zero", gravity=[0, 0, 0], turn=("z", 9))
         plan("gravity", "'any'", gravity="up", turn=("z", 9))
         plan("gravity", "goals", gravity="any", goals=[])
+        plan("closure", "'gravity'", closure="form", turn=("z", 9))
         plan("optimize", "'margin'", optimize="travel", turn=("z", 9))
         plan("clearance", "0.05", clearance=1, turn=("z", 9))
         plan("jobs", "from 1 to 1024", jobs=0, turn=("z", 9))
