@@ -69,6 +69,20 @@ std::string FailuresText(const FailureCounts& failures) {
   return text;
 }
 
+/// Name the fingers that hold the object in every grasp, although the hand has more than a grasp
+/// needs. Such a finger never changes its contact, which ends a long rotation.
+std::string AlwaysHoldingText(const kinematics::HandModel& hand, const GaitCounts& counts) {
+  constexpr std::int64_t kFewestGrasps = 20;
+  if (hand.fingers.size() <= kFewestHoldingFingers || counts.evaluated < kFewestGrasps) return "";
+  std::string fingers;
+  for (std::size_t finger = 0; finger < counts.holding.size(); ++finger) {
+    if (counts.holding[finger] < counts.evaluated) continue;
+    fingers += (fingers.empty() ? "" : " and ") + hand.fingers[finger].name;
+  }
+  if (fingers.empty()) return "";
+  return ", all of them held by " + fingers + ", which therefore keeps its contact";
+}
+
 /// Describe why no search succeeded, with the counts of the search that moved the object farthest.
 std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
@@ -82,7 +96,8 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
   const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
   std::string text = ProgressText(request, best) + "; the best of " +
                      std::to_string(counts.size()) + " initial poses has " +
-                     std::to_string(best.evaluated) + " grasps";
+                     std::to_string(best.evaluated) + " grasps" +
+                     AlwaysHoldingText(*request.hand, best);
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };

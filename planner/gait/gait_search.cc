@@ -148,8 +148,19 @@ GaitCounts GaitSearch::counts() const {
   return counts;
 }
 
+void GaitCounts::CountHolding(const ContactAssignment& assignment) {
+  holding.resize(assignment.size());
+  for (std::size_t finger = 0; finger < assignment.size(); ++finger) {
+    holding[finger] += static_cast<std::int64_t>(assignment[finger] != kNone);
+  }
+}
+
 void GaitCounts::Add(const GaitCounts& other) {
   evaluated += other.evaluated;
+  holding.resize(std::max(holding.size(), other.holding.size()));
+  for (std::size_t finger = 0; finger < other.holding.size(); ++finger) {
+    holding[finger] += other.holding[finger];
+  }
   expanded += other.expanded;
   path_failures.no_path += other.path_failures.no_path;
   path_failures.no_slide += other.path_failures.no_slide;
@@ -235,6 +246,7 @@ bool GaitSearch::Add(StanceNode stance_node) {
   QueuedGrasp& queued =
       queued_[stance_node.stance.assignment].emplace_back(QueuedGrasp{stance_node.node});
   ++counts_.evaluated;
+  counts_.CountHolding(stance_node.stance.assignment);
   const Stance* before = stance_node.parent < 0 ? nullptr : &tree_[stance_node.parent].stance;
   if (!checker_.PlaceIdleFingers(stance_node.stance, stance_node.node, nullptr, before)) {
     ++counts_.colliding;

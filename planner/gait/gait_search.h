@@ -99,8 +99,9 @@ class EdgeSimulation {
 
 /// Statistics of a search, for messages and for the selection between searches.
 struct GaitCounts {
-  std::int64_t evaluated = 0;  ///< number of evaluated stances
-  std::int64_t expanded = 0;   ///< number of expanded stances
+  std::int64_t evaluated = 0;              ///< number of evaluated stances
+  std::vector<std::int64_t> holding = {};  ///< evaluated stances that each finger holds [finger]
+  std::int64_t expanded = 0;               ///< number of expanded stances
   PathFailureCounts path_failures;
   std::int64_t colliding = 0;        ///< stances rejected because fingers collide
   std::int64_t rolled = 0;           ///< stances rejected because the grasp is lost after rolling
@@ -111,6 +112,8 @@ struct GaitCounts {
   int farthest = 0;
   int steps = 0;  ///< number of track steps
 
+  /// Count the fingers of one evaluated stance.
+  void CountHolding(const ContactAssignment& assignment);
   /// Add the counts of a search from the other end; `farthest` and `steps` keep their values.
   void Add(const GaitCounts& other);
 };
