@@ -143,11 +143,11 @@ void FigureProgram::AddTo(CLI::App& app) {
       .Key("captions", ChoiceParser<bool>(style.captions, {{"below", true}, {"none", false}}))
       .AddTo(app, "KEY=VALUE,…",
              "Sizes and text of the figures "
-             "[default: width=85,sheet=174,font=7.5,family=sans-serif,captions=below]\n"
+             "[default: width=85,sheet=174,font=7.5]\n"
              "width=MM: width of the figure of a step\n"
              "sheet=MM: width of the sheet\n"
              "font=PT: font size, with which lines and markers scale\n"
-             "family=NAME: font family, as in family=DejaVu Serif\n"
+             "family=NAME: font family, as in family=DejaVu Serif. Otherwise sans-serif\n"
              "captions=below|none: captions below the figures, or no captions");
   app.add_option("--panels", panels,
                  "Entries on the sheet. 0 is the initial grasp, k is step k, as in 0,2-4 "

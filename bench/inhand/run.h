@@ -20,10 +20,10 @@ struct ScoreRun {
   const std::vector<HandBody>* bodies = nullptr;
   const std::vector<kinematics::HandFile>* hands = nullptr;
   double limit_s = 8;  ///< processor time to plan one task, s
-  /// Whether grasps may hold the object by its weight.
-  std::optional<plan::GravitySupport> gravity_support = {};
   /// folder of plan files, with a subfolder for each hand; empty: not written
   std::filesystem::path plans;
+  /// Whether grasps may hold the object by its weight.
+  std::optional<plan::GravitySupport> gravity_support = {};
 };
 
 /// @throws InputError  if there is no object with this name.

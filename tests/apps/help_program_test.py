@@ -185,7 +185,7 @@ class Help(ProgramCase):
                 ("validate", validate, "--replay", "points,hand", ": found points and hand"),
                 ("validate", validate, "--trials", "min-pass-rate=1", ": the number of trials is required"),
                 ("figure", ["--object", "no.obj", "--plan", "no.json", "-o", "out"], "--size", "85",
-                 ': expected one of width=, sheet=, font=, found "85"')):
+                 ': expected one of width=, sheet=, font=, family=, captions=, found "85"')):
             self.assert_refused(2, f"error: {option}{words}", *more, option, value)
             # Negative control: the rest of the command line is right.
             self.assert_refused(2, ("no.obj", "no.json")[self.program != "plan"], *more)

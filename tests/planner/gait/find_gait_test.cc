@@ -482,7 +482,8 @@ TEST(FindGaitTest, AFailureNamesFingersThatNeverChangeTheirContact) {
     request.most_expanded = 3;
     const GaitResult found = FindGait(request);
     ASSERT_FALSE(found.gait);
-    const bool names = found.message.find("held by finger1 and finger2 and finger3") != std::string::npos;
+    const bool names =
+        found.message.find("held by finger1 and finger2 and finger3") != std::string::npos;
     EXPECT_EQ(names, hand == &stiff) << found.message;
   }
 }

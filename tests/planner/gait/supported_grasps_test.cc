@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "gait_requests.h"
@@ -61,16 +62,19 @@ TEST(SupportedGraspsTest, PlansOfTheRequestRecordItAndPassTheCheck) {
 }
 
 /// No grasp has the required quality, but fingers below the cube carry it.
-TEST(SupportedGraspsTest, GravityHoldsWhereForceClosureIsNotGoodEnough) {
-  GaitRequest request = RequestFor("cube", kScale, 20);
+TEST(SupportedGraspsTest, GravityHoldsIfNoGraspIsGoodEnough) {
+  GaitRequest request = RequestFor("cube", 0.5, 20);
   request.robustness = RobustnessLevel::kNone;
+  request.criteria.friction_angle = std::atan(0.3);
   request.criteria.min_quality = 0.9;
   EXPECT_FALSE(FindGait(request).gait);
   request.gravity_support.emplace();
   const GaitResult found = FindGait(request);
   ASSERT_TRUE(found.gait) << found.message;
   const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
-  EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
+  const plan::PlanCheck check = plan::CheckPlan(*request.solid, plan);
+  EXPECT_TRUE(check.passed());
+  EXPECT_TRUE(check.steps.front().is_supported);
 }
 
 }  // namespace supported_grasps_test

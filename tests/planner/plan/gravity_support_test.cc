@@ -124,25 +124,44 @@ TEST(GravitySupportTest, StatesBetweenTheEndsOfAMotionCount) {
   EXPECT_EQ(carried.Check().steps[1].reason, Reason::kNotForceClosure);
 }
 
-/// A coarse path is checked between its states, too: it turns over by 360° in two intervals.
+Vector3d Tilted(double x_degrees, double y_degrees) {
+  return Vector3d(std::tan(Radians(x_degrees)), std::tan(Radians(y_degrees)), 1).normalized();
+}
+
+/// During a half turn the direction of gravity in the object's frame passes through a larger tilt
+/// than those of both ends.
 TEST(GravitySupportTest, PosesBetweenTwoStatesCount) {
   CarriedCube carried;
-  WeightCarrier carrier(carried.cube.wrench_frame(), Radians(30), {}, Vector3d::UnitZ());
-  const grasp::Grasp contacts = ContactsOf(carried.plan.initial);
-  const HandState upright;
-  HandState there = Turned(upright, Vector3d::UnitX(), 5);
-  HandState back = Turned(upright, Vector3d::UnitX(), -5);
-  EXPECT_TRUE(carrier.HoldsBetween(contacts, back.pose, there.pose));
-  // The same ends, reached by a rotation about another axis that passes through larger tilts.
-  const HandState left = Turned(upright, Vector3d(1, 0.02, 0), 5);
-  const HandState right = Turned(Turned(upright, Vector3d::UnitZ(), 175), Vector3d::UnitX(), 5);
-  EXPECT_TRUE(carrier.HoldsAt(contacts, left.pose));
-  EXPECT_TRUE(carrier.HoldsAt(contacts, right.pose));
-  bool all = true;
-  for (int i = 0; i <= 200; ++i) {
-    all = all && carrier.HoldsAt(contacts, StateBetween(left, right, i / 200.0).pose);
+  grasp::Grasp contacts;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi * i / 4;
+    contacts.push_back({{0.7 * std::cos(angle), 0.7 * std::sin(angle), -1}, Vector3d::UnitZ(), {}});
   }
-  EXPECT_EQ(carrier.HoldsBetween(contacts, left.pose, right.pose), all);
+  const auto carrier_at = [&](double disturbance) {
+    return WeightCarrier(carried.cube.wrench_frame(), Radians(40), {disturbance, 9},
+                         Vector3d::UnitZ());
+  };
+  HandState from;
+  from.pose.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Tilted(8, 6), Vector3d::UnitZ()).toRotationMatrix();
+  int tested = 0;
+  for (const double degrees : {178.0, -178.0}) {
+    const HandState to = Turned(from, Tilted(0, 6), degrees);
+    const auto resists = [&](const HandState& state) {
+      return carrier_at(0.01).ResistanceAt(contacts, state.pose);
+    };
+    const double at_ends = std::min(resists(from).lower, resists(to).lower);
+    const double between = resists(StateBetween(from, to, 0.5)).upper;
+    EXPECT_TRUE(
+        carrier_at(0.9 * std::min(at_ends, between)).HoldsBetween(contacts, from.pose, to.pose));
+    if (between > 0.95 * at_ends) continue;
+    ++tested;
+    const WeightCarrier carrier = carrier_at((at_ends + between) / 2);
+    EXPECT_TRUE(carrier.HoldsAt(contacts, from.pose));
+    EXPECT_TRUE(carrier.HoldsAt(contacts, to.pose));
+    EXPECT_FALSE(carrier.HoldsBetween(contacts, from.pose, to.pose));
+  }
+  EXPECT_EQ(tested, 1);
 }
 
 TEST(GravitySupportTest, TheRequiredFrictionAngleIsThatOfTheTiltAndTheDisturbance) {
