@@ -160,8 +160,7 @@ void FigureProgram::AddTo(CLI::App& app) {
   AddQuiet(app, quiet);
   app.footer(
       "  figure --object polygon15.wkt --plan polygon15.json --output figures --format pdf\n"
-      "  figure --object cube.obj --plan cube.json --output figures --view 30,20\n"
-      "  figure --object cube.obj --plan turn.json --hand ring4.json --output figures\n");
+      "  figure --object cube.obj --plan cube.json --output figures --view 30,20\n");
 }
 
 void FigureProgram::CheckPlanFits(const plan::Plan& plan, const object::ObjectFile& object) const {
