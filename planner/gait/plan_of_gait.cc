@@ -79,11 +79,10 @@ bool KeepsSupport(const HandSetup& setup, const ContactAssignment& assignment,
     if (point == kNone) continue;
     contacts.push_back({setup.points[point].p / setup.scale, setup.points[point].n, {}});
   }
-  if (!setup.carrier->HoldsAt(contacts, path.front().pose)) return true;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    if (!setup.carrier->HoldsBetween(contacts, path[i].pose, path[i + 1].pose)) return false;
-  }
-  return true;
+  std::vector<Eigen::Isometry3d> poses;
+  for (const Keyframe& frame : path) poses.push_back(frame.pose);
+  return !setup.carrier->HoldsAt(contacts, poses.front()) ||
+         setup.carrier->HoldsAlong(contacts, poses);
 }
 
 /// Return whether a segment belongs to the same plan step as the previous one.

@@ -35,8 +35,8 @@ struct StepCheck {
   bool is_supported = false;
   /// Whether this applies to the static grasp after the step.
   bool ends_supported = false;
-  /// Size of the disturbances that the gravity-supported grasps of the step resist, a lower bound
-  /// in weights of the object; nullopt if there are none.
+  /// Size of the disturbances that the gravity-supported grasps of the step resist at the
+  /// states of the hand, a lower bound in weights of the object; nullopt if there are none.
   std::optional<double> resistance;
   /// Number of intervals of a sliding step's path with undecided force closure, each at most 1e-6
   /// of the path between two waypoints. They have no proof, and no instant that is not force

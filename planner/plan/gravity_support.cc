@@ -51,6 +51,15 @@ bool WeightCarrier::HoldsBetween(std::span<const grasp::Contact> contacts,
   return HoldsBetween(contacts, from, middle) && HoldsBetween(contacts, middle, to);
 }
 
+bool WeightCarrier::HoldsAlong(std::span<const grasp::Contact> contacts,
+                               std::span<const Eigen::Isometry3d> poses) const {
+  if (!HoldsAt(contacts, poses.front())) return false;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    if (!HoldsBetween(contacts, poses[i], poses[i + 1])) return false;
+  }
+  return true;
+}
+
 grasp::RequiredFrictionAngle WeightCarrier::RequiredFrictionAngleAt(
     std::span<const grasp::Contact> contacts, const Eigen::Isometry3d& pose) const {
   grasp::RequiredFrictionAngle required{0, friction_angle_};

@@ -47,6 +47,11 @@ class WeightCarrier {
   /// chord. Both ends must resist that much more.
   [[nodiscard]] bool HoldsBetween(std::span<const grasp::Contact> contacts,
                                   const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const;
+  /// Return whether a grasp is certainly gravity-supported at all poses of a path, with
+  /// HoldsBetween for consecutive poses.
+  /// @param poses  at least one pose.
+  [[nodiscard]] bool HoldsAlong(std::span<const grasp::Contact> contacts,
+                                std::span<const Eigen::Isometry3d> poses) const;
   /// Return the smallest friction angle at which a grasp is gravity-supported at a pose.
   /// @pre HoldsAt the pose.
   [[nodiscard]] grasp::RequiredFrictionAngle RequiredFrictionAngleAt(

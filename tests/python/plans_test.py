@@ -180,7 +180,7 @@ class PlansTest(RegraspCase):
             self.assertEqual((again.text, again.table, again.failure, again.passed, again.data),
                              (report.text, report.table, report.failure, report.passed, report.data))
             self.assertEqual(pickle.dumps(again), pickle.dumps(report))
-            self.assertIsNone(again._made)  # not validated again so far
+            self.assertIsNone(again._made)  # no validation yet
             self.assertEqual(again.page(), report.page())
         self.assertNotEqual(again, regrasp.validate(self.cube, self.plan))
         self.assertNotEqual(again, again.text)
