@@ -12,6 +12,7 @@
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/tip_geometry.h"
+#include "sim/scene/damped_step.h"
 #include "sim/scene/engine.h"
 
 namespace regrasp::sim {
@@ -301,22 +302,10 @@ void HandWorld::PinObject(bool on) { impl_->pinned = on; }
 void HandWorld::Step() {
   const mjModel* m = impl_->model;
   mjData* d = impl_->data;
-  // The calls of mj_step, with the contacts of the fingertips inserted.
-  mj_kinematics(m, d);
-  mj_comPos(m, d);
-  mj_tendon(m, d);
-  mj_crb(m, d);
-  mj_factorM(m, d);
-  mj_collision(m, d);
-  impl_->AddTipContacts();
-  mj_makeConstraint(m, d);
-  mj_transmission(m, d);
-  mj_projectConstraint(m, d);
-  mj_fwdVelocity(m, d);
   mjtNum* object = d->qpos + impl_->object_qpos;
   std::array<mjtNum, 7> place;
   std::copy_n(object, 7, place.begin());
-  mj_step2(m, d);
+  DampedStep(*m, *d, [this] { impl_->AddTipContacts(); });
   if (impl_->pinned) {
     std::ranges::copy(place, object);
     std::fill_n(d->qvel + m->body_dofadr[impl_->object_body], 6, 0);
