@@ -173,13 +173,13 @@ TEST(TipGeometryTest, WhereTheModelHasTheBallBothReplaysAreTheSame) {
 
 TEST(TipGeometryTest, ASmallerTipIsPressedUntilItTouches) {
   const kinematics::HandFile small =
-      HandWithTips(R"(type="sphere" size="0.008" pos="0 0 0.024")", kThinCapsule);
+      HandWithTips(R"(type="sphere" size="0.0085" pos="0 0 0.024")", kThinCapsule);
   const Replayed ball = ReplayWith(small, TipShape::kBall);
   const Replayed own = ReplayWith(small, TipShape::kGeometry);
   EXPECT_EQ(own.reason(), Reason::kNone) << own.detail();
   ASSERT_FALSE(own.heights.empty());
   for (const double height : ball.heights) EXPECT_NEAR(height, 0.01, 1e-4);
-  for (const double height : own.heights) EXPECT_NEAR(height, 0.008, 1e-4);
+  for (const double height : own.heights) EXPECT_NEAR(height, 0.0085, 1e-4);
 }
 
 TEST(TipGeometryTest, ABoxStandsOnItsCornersAndEdges) {

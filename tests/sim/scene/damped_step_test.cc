@@ -38,8 +38,8 @@ std::string PressedTip(double timestep) {
   <actuator><motor joint="plate"/><motor joint="z"/></actuator></mujoco>)";
 }
 
-/// Return the largest distance that the tip slips on the plate, which moves to and fro by 1 mm with
-/// 2 Hz, metres. The damping force of the tip is inside the friction cone.
+/// Return the largest distance that the fingertip slips on the plate, which moves to and fro by 1
+/// mm with 2 Hz, metres. The damping force of the fingertip is inside the friction cone.
 double LargestSlip(Stepper stepper, double timestep, mjtIntegrator integrator = mjINT_EULER) {
   constexpr double kPressing = 2;
   constexpr double kMass = 1000;
@@ -75,9 +75,9 @@ TEST(DampedStepTest, SlipOfAStickingTipDoesNotDependOnTheTimeStep) {
 
 /// A two-link finger above a ball, with a servo.
 std::string Finger(double damping, double servo_damping, double gravity) {
-  const std::string joint = R"(type="hinge" axis="0 1 0" damping=")" + std::to_string(damping);
-  return R"(<mujoco><option timestep="0.001" gravity="0 0 )" +
-         std::to_string(gravity) + R"("/><worldbody>
+  const std::string joint = R"(axis="0 1 0" damping=")" + std::to_string(damping);
+  return R"(<mujoco><option timestep="0.001" gravity="0 0 )" + std::to_string(gravity) +
+         R"("/><worldbody>
     <geom type="sphere" size="0.02" pos="0.05 0 -0.05"/>
     <body><joint name="a" )" +
          joint + R"("/><geom type="capsule" fromto="0 0 0 0.04 0 0" size="0.008"/>
