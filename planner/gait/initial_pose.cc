@@ -25,6 +25,9 @@ constexpr int kTaskSteps = 4;
 constexpr int kMaxRefined = 36;
 constexpr int kGraspDraws = 150;
 constexpr int kMaxInitialPoses = 24;
+/// Turn, in radians, above which the object may begin on any side: it does not remain upright.
+constexpr double kLongTurn = std::numbers::pi;
+constexpr int kSides = 6;
 /// Offset in the logarithm of the number of reachable contacts.
 /// The logarithm makes all fingers count.
 constexpr double kNoContact = 0.3;
@@ -39,6 +42,13 @@ constexpr double kDistinctConfiguration = 0.5;
 constexpr int kTrackSamples = 5;
 constexpr double kMaxIdleClearance = 0.02;  // metres; additional clearance is not rewarded
 constexpr double kBendPenalty = 0.002;      // metres per radian
+
+/// Return a rotation that maps the z axis to a positive or negative coordinate axis.
+/// @param side  0 for +z, 1 for −z, 2 for +x, and so on.
+Eigen::Matrix3d OnSide(int side) {
+  const Vector3d axis = (side % 2 == 0 ? 1 : -1) * Vector3d::Unit((side / 2 + 2) % 3);
+  return object::AligningRotation(Vector3d::UnitZ(), axis).toRotationMatrix();
+}
 
 /// Return the rotation that maps the z axis to `up`.
 Eigen::Matrix3d Upright(const Vector3d& up) {
@@ -165,13 +175,19 @@ class PoseDraw {
     }
   }
 
-  Isometry3d Next() { return grasp_.empty() ? UprightPose() : WithContactAtFingertip(); }
+  Isometry3d Next() {
+    if (!grasp_.empty()) return WithContactAtFingertip();
+    const bool is_upright = task_.turn_angle() <= kLongTurn;
+    return StandingPose(is_upright ? 0 : static_cast<int>(random_.Index(kSides)));
+  }
 
  private:
-  Isometry3d UprightPose() {
+  /// @param side  side that is up (OnSide).
+  Isometry3d StandingPose(int side) {
     Isometry3d pose = Isometry3d::Identity();
     const double yaw = 2 * std::numbers::pi * random_.Uniform();
-    pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+    pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() *
+                    OnSide(side).transpose();
     Vector3d position;
     for (int k = 0; k < 3; ++k) position[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
     pose.translation() = position - pose.linear() * task_.centre();

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "tests/planner/gait/gait_requests.h"
 #include "tests/planner/gait/gait_world.h"
@@ -50,6 +52,20 @@ TEST(FindInitialPosesTest, PosesAreUprightClearOfThePalmAndWithinReach) {
   EXPECT_GE(CountReachingFingers(world, poses.front()), 3);
   // Negative control: half a metre higher no finger reaches the object.
   EXPECT_EQ(CountReachingFingers(world, Eigen::Translation3d(0.5 * Ring().up) * poses.front()), 0);
+}
+
+TEST(FindInitialPosesTest, AFullTurnMayBeginWithAnySideUp) {
+  GaitWorld world(RequestFor("cube", 0.8, 360));
+  int upright = 0;
+  int on_side = 0;
+  for (const Isometry3d& pose : PosesOf(world, {})) {
+    const double tilt = TiltOf(pose);
+    upright += static_cast<int>(tilt < 1e-9);
+    on_side += static_cast<int>(std::abs(tilt - std::numbers::sqrt2) < 1e-9);
+    EXPECT_TRUE(world.scene.KeepsOffPalm(pose));
+  }
+  EXPECT_GT(on_side, upright);
+  EXPECT_GT(upright, 0);
 }
 
 TEST(FindInitialPosesTest, PosesDependOnTheRandomStreamOnly) {
