@@ -25,9 +25,12 @@ constexpr int kTaskSteps = 4;
 constexpr int kMaxRefined = 36;
 constexpr int kGraspDraws = 150;
 constexpr int kMaxInitialPoses = 24;
-/// Turn, in radians, above which the object may begin on any side: it does not remain upright.
+/// Turn about a nearly vertical axis, in radians, above which the object may also begin on a side.
+/// Its axis is then horizontal, so that more fingers can turn it.
 constexpr double kLongTurn = std::numbers::pi;
-constexpr int kSides = 6;
+/// Largest angle of that axis from the vertical, radians.
+constexpr double kNearVertical = std::numbers::pi / 4;
+constexpr int kSides = 4;
 /// Offset in the logarithm of the number of reachable contacts.
 /// The logarithm makes all fingers count.
 constexpr double kNoContact = 0.3;
@@ -43,11 +46,17 @@ constexpr int kTrackSamples = 5;
 constexpr double kMaxIdleClearance = 0.02;  // metres; additional clearance is not rewarded
 constexpr double kBendPenalty = 0.002;      // metres per radian
 
-/// Return a rotation that maps the z axis to a positive or negative coordinate axis.
-/// @param side  0 for +z, 1 for −z, 2 for +x, and so on.
+/// Return a rotation that maps a horizontal coordinate axis of the object to the z axis.
+/// @param side  0 for +x, 1 for −x, 2 for +y, 3 for −y.
 Eigen::Matrix3d OnSide(int side) {
-  const Vector3d axis = (side % 2 == 0 ? 1 : -1) * Vector3d::Unit((side / 2 + 2) % 3);
-  return object::AligningRotation(Vector3d::UnitZ(), axis).toRotationMatrix();
+  const Vector3d axis = (side % 2 == 0 ? 1 : -1) * Vector3d::Unit(side / 2);
+  return object::AligningRotation(axis, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+/// Return whether an upright object turns long about a nearly vertical axis.
+bool TurnsAboutVertical(const Turn& turn) {
+  return std::abs(turn.angle) > kLongTurn &&
+         std::abs(turn.axis.z()) > std::cos(kNearVertical) * turn.axis.norm();
 }
 
 /// Return the rotation that maps the z axis to `up`.
@@ -177,17 +186,17 @@ class PoseDraw {
 
   Isometry3d Next() {
     if (!grasp_.empty()) return WithContactAtFingertip();
-    const bool is_upright = task_.turn_angle() <= kLongTurn;
-    return StandingPose(is_upright ? 0 : static_cast<int>(random_.Index(kSides)));
+    const bool may_lie = TurnsAboutVertical(task_.turn());
+    const int side = may_lie ? static_cast<int>(random_.Index(2 * kSides)) - kSides : -1;
+    return PoseOn(side < 0 ? Eigen::Matrix3d::Identity() : OnSide(side));
   }
 
  private:
-  /// @param side  side that is up (OnSide).
-  Isometry3d StandingPose(int side) {
+  /// @param side  rotation of the upright object onto the side on which it begins.
+  Isometry3d PoseOn(const Eigen::Matrix3d& side) {
     Isometry3d pose = Isometry3d::Identity();
     const double yaw = 2 * std::numbers::pi * random_.Uniform();
-    pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() *
-                    OnSide(side).transpose();
+    pose.linear() = upright_ * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() * side;
     Vector3d position;
     for (int k = 0; k < 3; ++k) position[k] = box_.min()[k] + random_.Uniform() * box_.sizes()[k];
     pose.translation() = position - pose.linear() * task_.centre();

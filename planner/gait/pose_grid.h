@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -82,8 +81,8 @@ class ObjectTask {
       : centre_(centre), turn_(turn), goal_(goal), turn_tolerance_(turn_tolerance) {}
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
-  /// Return the angle of a turn, radians; 0 if there is a goal.
-  [[nodiscard]] double turn_angle() const { return goal_ ? 0 : std::abs(turn_.angle); }
+  /// Return the turn; its angle is 0 if there is a goal.
+  [[nodiscard]] Turn turn() const { return goal_ ? Turn{} : turn_; }
   /// Return the goal set from a start; nullopt for a turn without tolerance.
   [[nodiscard]] std::optional<plan::GoalSet> GoalFrom(const Eigen::Isometry3d& start) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tests/planner/gait/gait_requests.h"
 #include "tests/planner/gait/gait_world.h"
@@ -54,18 +55,31 @@ TEST(FindInitialPosesTest, PosesAreUprightClearOfThePalmAndWithinReach) {
   EXPECT_EQ(CountReachingFingers(world, Eigen::Translation3d(0.5 * Ring().up) * poses.front()), 0);
 }
 
-TEST(FindInitialPosesTest, AFullTurnMayBeginWithAnySideUp) {
-  GaitWorld world(RequestFor("cube", 0.8, 360));
-  int upright = 0;
-  int on_side = 0;
+/// Count upright poses and poses on a side.
+std::pair<int, int> CountUprightAndLying(double degrees, const Vector3d& axis) {
+  GaitRequest request = RequestFor("cube", 0.8, degrees);
+  request.turn.axis = axis;
+  GaitWorld world(request);
+  std::pair<int, int> count;
   for (const Isometry3d& pose : PosesOf(world, {})) {
     const double tilt = TiltOf(pose);
-    upright += static_cast<int>(tilt < 1e-9);
-    on_side += static_cast<int>(std::abs(tilt - std::numbers::sqrt2) < 1e-9);
+    count.first += static_cast<int>(tilt < 1e-9);
+    count.second += static_cast<int>(std::abs(tilt - std::numbers::sqrt2) < 1e-9);
     EXPECT_TRUE(world.scene.KeepsOffPalm(pose));
   }
-  EXPECT_GT(on_side, upright);
+  return count;
+}
+
+TEST(FindInitialPosesTest, AFullTurnAboutTheVerticalMayBeginOnASide) {
+  const auto [upright, lying] = CountUprightAndLying(360, Vector3d::UnitZ());
   EXPECT_GT(upright, 0);
+  EXPECT_GT(lying, 0);
+  // Other turns begin with the upright object.
+  for (const auto& count : {CountUprightAndLying(360, Vector3d::UnitX()),
+                            CountUprightAndLying(90, Vector3d::UnitZ())}) {
+    EXPECT_GT(count.first, 0);
+    EXPECT_EQ(count.second, 0);
+  }
 }
 
 TEST(FindInitialPosesTest, PosesDependOnTheRandomStreamOnly) {
