@@ -12,6 +12,7 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/gait/goal_list.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/goal_set_io.h"
 #include "planner/plan/grasp_io.h"
@@ -23,6 +24,7 @@
 #include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
 #include "sim/actuation/simulate_execution.h"
+#include "sim/hand_grasps/fingertip_grasp.h"
 
 namespace regrasp::python {
 
@@ -61,6 +63,7 @@ struct HandArguments {
   double clearance = 1e-3;
   planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
   bool is_standard = false;  ///< whether plans must execute under PlanningRobustness::kStandard
+  std::string start_hand_grasp, goal_hand_grasp;  ///< lines of hand grasps; empty: none
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -102,6 +105,29 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
                                                         : sim::PlanningRobustness::kNominal)),
           .rate = sim::ExecutionRater(hand.file, solid)};
+}
+
+/// Return the state of a hand grasp, and its contacts as text.
+plan::HandEnd StateOf(const std::string& text, const char* name, const PythonObject& object,
+                      const PythonHand& hand, double clearance, std::string& contacts) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
+  plan::HandEnd end =
+      sim::FingertipGraspOf(sim::ParseHandGrasp(text, name),
+                            {hand.file, solid, object.file.file, object.scale, clearance}, name);
+  contacts = plan::FormatGrasp(plan::ContactsOf(end.grasp), solid.dimension());
+  return end;
+}
+
+/// Let a task start and end at hand grasps, if there are any.
+void UseHandGrasps(const PythonObject& object, const PythonHand& hand, const HandArguments& asked,
+                   planning::InHandTask& task, PlanArguments& given) {
+  if (!asked.start_hand_grasp.empty()) {
+    gait::StartFrom(
+        StateOf(asked.start_hand_grasp, "start", object, hand, task.margin, given.start), task);
+  }
+  if (asked.goal_hand_grasp.empty()) return;
+  gait::EndAt(StateOf(asked.goal_hand_grasp, "goal", object, hand, task.margin, given.goal), {},
+              task);
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,
@@ -218,13 +244,17 @@ void BindPlans(py::module_& module) {
       .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)
       .def_readwrite("robustness", &HandArguments::robustness)
-      .def_readwrite("is_standard", &HandArguments::is_standard);
+      .def_readwrite("is_standard", &HandArguments::is_standard)
+      .def_readwrite("start_hand_grasp", &HandArguments::start_hand_grasp)
+      .def_readwrite("goal_hand_grasp", &HandArguments::goal_hand_grasp);
   module.def("up_directions",
              [](const PythonHand& hand) { return kinematics::UpDirections(hand.file.hand); });
   module.def("find_plan_in_hand",
-             [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
+             [](const PythonObject& object, PlanArguments given, const PythonHand& hand,
                 const HandArguments& asked, py::object progress) {
-               return FindPlan(object, given, std::move(progress), TaskOf(object, hand, asked));
+               planning::InHandTask task = TaskOf(object, hand, asked);
+               UseHandGrasps(object, hand, asked, task, given);
+               return FindPlan(object, given, std::move(progress), task);
              });
   // Planners for fingers without a hand.
   module.def("planner_names", [] {
