@@ -159,17 +159,12 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   return request;
 }
 
-plan::HandEnd PlanProgram::UseHandGrasp(const object::ObjectFile& object,
-                                        const planning::InHandTask& task, PlanEnd& end) const {
-  const auto& [grasp, name] = *end.hand_grasp;
-  const plan::HandEnd state =
-      sim::FingertipGraspOf(grasp,
-                            {*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object),
-                             object.file, common.scale, task.margin},
-                            name);
-  end.text = plan::FormatGrasp(plan::ContactsOf(state.grasp), object.object->dimension());
-  end.name = name;
-  return state;
+plan::HandEnd PlanProgram::StateOf(const NamedHandGrasp& given, const object::ObjectFile& object,
+                                   double clearance) const {
+  return sim::FingertipGraspOf(given.grasp,
+                               {*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object),
+                                object.file, common.scale, clearance},
+                               given.name);
 }
 
 planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, PlanEnd& from,
@@ -180,13 +175,26 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
                                           sim::PlanningConditions(hand.robustness.conditions));
   task.rate = sim::ExecutionRater(*hand_file, solid);
   hand.AskFor(task);
+  const auto set_contacts = [&](const plan::HandEnd& state, PlanEnd& end) {
+    end.text = plan::FormatGrasp(plan::ContactsOf(state.grasp), object.object->dimension());
+    end.name = end.hand_grasp->name;
+  };
+  std::optional<plan::HandEnd> begin;
   if (continued) {
     CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
-    gait::StartFrom(plan::EndOfPlan(*continued), task);
+    begin = plan::EndOfPlan(*continued);
     if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
+  } else if (from.hand_grasp) {
+    begin = StateOf(*from.hand_grasp, object, task.margin);
+    set_contacts(*begin, from);
   }
-  if (from.hand_grasp) gait::StartFrom(UseHandGrasp(object, task, from), task);
-  if (to.hand_grasp) gait::EndAt(UseHandGrasp(object, task, to), hand.GoalTolerance(), task);
+  if (begin) gait::StartFrom(*begin, task);
+  if (to.hand_grasp) {
+    plan::HandEnd end = StateOf(*to.hand_grasp, object, task.margin);
+    if (begin) sim::KeepContacts(*begin, common.scale, end);
+    set_contacts(end, to);
+    gait::EndAt(end, hand.GoalTolerance(), task);
+  }
   return task;
 }
 

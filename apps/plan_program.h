@@ -102,10 +102,11 @@ struct PlanProgram {
   void ReadContinuedPlan();
   [[nodiscard]] planning::GraspChoice Choose(const PlanEnd& end,
                                              const object::Object& object) const;
-  /// Return the state of an end that is a hand grasp, and set its contacts as text.
-  [[nodiscard]] plan::HandEnd UseHandGrasp(const object::ObjectFile& object,
-                                           const planning::InHandTask& task, PlanEnd& end) const;
-  /// Return the task of the options, with the poses and contacts of hand grasps and of --continue.
+  /// Return the state of a hand grasp.
+  [[nodiscard]] plan::HandEnd StateOf(const NamedHandGrasp& given, const object::ObjectFile& object,
+                                      double clearance) const;
+  /// Return the task of the options, with the poses of hand grasps and of --continue. Sets the
+  /// contacts of ends that are hand grasps as text.
   [[nodiscard]] planning::InHandTask TaskFor(const object::ObjectFile& object, PlanEnd& from,
                                              PlanEnd& to) const;
   [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;

@@ -107,27 +107,29 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .rate = sim::ExecutionRater(hand.file, solid)};
 }
 
-/// Return the state of a hand grasp, and its contacts as text.
-plan::HandEnd StateOf(const std::string& text, const char* name, const PythonObject& object,
-                      const PythonHand& hand, double clearance, std::string& contacts) {
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
-  plan::HandEnd end =
-      sim::FingertipGraspOf(sim::ParseHandGrasp(text, name),
-                            {hand.file, solid, object.file.file, object.scale, clearance}, name);
-  contacts = plan::FormatGrasp(plan::ContactsOf(end.grasp), solid.dimension());
-  return end;
-}
-
 /// Let a task start and end at hand grasps, if there are any.
 void UseHandGrasps(const PythonObject& object, const PythonHand& hand, const HandArguments& asked,
                    planning::InHandTask& task, PlanArguments& given) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
+  const auto state_of = [&](const std::string& text, const char* name) {
+    return sim::FingertipGraspOf(sim::ParseHandGrasp(text, name),
+                                 {hand.file, solid, object.file.file, object.scale, task.margin},
+                                 name);
+  };
+  const auto contacts_of = [&](const plan::HandEnd& end) {
+    return plan::FormatGrasp(plan::ContactsOf(end.grasp), solid.dimension());
+  };
+  std::optional<plan::HandEnd> begin;
   if (!asked.start_hand_grasp.empty()) {
-    gait::StartFrom(
-        StateOf(asked.start_hand_grasp, "start", object, hand, task.margin, given.start), task);
+    begin = state_of(asked.start_hand_grasp, "start");
+    given.start = contacts_of(*begin);
+    gait::StartFrom(*begin, task);
   }
   if (asked.goal_hand_grasp.empty()) return;
-  gait::EndAt(StateOf(asked.goal_hand_grasp, "goal", object, hand, task.margin, given.goal), {},
-              task);
+  plan::HandEnd end = state_of(asked.goal_hand_grasp, "goal");
+  if (begin) sim::KeepContacts(*begin, object.scale, end);
+  given.goal = contacts_of(end);
+  gait::EndAt(end, {}, task);
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,

@@ -24,7 +24,7 @@ using kinematics::JointConfiguration;
 
 constexpr std::size_t kFewestContacts = 3;
 /// Largest angle between the direction to a fingertip's centre and the face's normal. It is larger
-/// at edges, at which contacts have no normal. Facets of smooth surfaces are within it.
+/// at edges, at which contacts have no normal. Triangles of smooth surfaces are within it.
 constexpr double kMostEdgeAngle = Radians(20);
 constexpr double kFarthestTip_m = 1;
 /// Largest difference of a joint that a plan cannot move from its reference, radians or metres.
@@ -240,6 +240,16 @@ class FingertipReader {
 plan::HandEnd FingertipGraspOf(const HandGrasp& grasp, const FingertipSetup& setup,
                                const std::string& name) {
   return FingertipReader(grasp, setup, name).Read();
+}
+
+void KeepContacts(const plan::HandEnd& start, double scale, plan::HandEnd& goal) {
+  for (plan::FingerContact& held : goal.grasp) {
+    const plan::FingerContact* before = plan::FindFinger(start.grasp, held.finger);
+    if (before != nullptr &&
+        plan::AreSameContact(before->contact, held.contact, kSameContactTolerance / scale)) {
+      held.contact = before->contact;
+    }
+  }
 }
 
 }  // namespace regrasp::sim

@@ -13,6 +13,9 @@ namespace regrasp::sim {
 /// contact of a hand grasp, metres.
 inline constexpr double kFingertipTolerance = 2e-3;
 
+/// Largest distance of contacts of one finger in two grasps that are one contact, metres.
+inline constexpr double kSameContactTolerance = 5e-4;
+
 /// Hand and object of a plan that starts or ends at a hand grasp.
 struct FingertipSetup {
   const kinematics::HandFile& hand;
@@ -37,5 +40,10 @@ struct FingertipSetup {
 ///     deeper than the tolerance, or another link, the palm or another finger is too near.
 [[nodiscard]] plan::HandEnd FingertipGraspOf(const HandGrasp& grasp, const FingertipSetup& setup,
                                              const std::string& name);
+
+/// Let a goal have the contacts of a start that the same finger has within kSameContactTolerance.
+/// Without this, the finger must be lifted to reach a point that it nearly touches.
+/// @param scale  metres per unit of the object's file.
+void KeepContacts(const plan::HandEnd& start, double scale, plan::HandEnd& goal);
 
 }  // namespace regrasp::sim

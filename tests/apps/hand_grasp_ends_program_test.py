@@ -87,6 +87,19 @@ class HandGraspEnds(ProgramCase):
                                 "--output", "result", "--frames", "none", *SMALL, program="validate")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_the_same_contacts_in_another_pose_need_no_finger_switch(self):
+        """Contacts of two grasps differ by rounding, or by less than the tolerance."""
+        self.assert_done(*self.arguments("--turn", "z,30", "--robustness", "none"))
+        plan = json.loads(self.read("plan.json"))
+        self.assertEqual([step["kind"] for step in plan["steps"]], ["move"])
+        last = self.grasp("last", last_state(plan["steps"][-1]))
+        for shift, kinds in ((0, ["move"]), (3e-4, ["move"])):
+            last["palm"]["position"][2] += shift
+            self.write_grasps(self.grasp("first", plan["hand"]["initial"]), last, name="same.jsonl")
+            self.assert_done(*self.arguments("--start", "same.jsonl:first", "--goal", "same.jsonl:last", "--robustness",
+                                             "none", output="same.json"))
+            self.assertEqual([step["kind"] for step in json.loads(self.read("same.json"))["steps"]], kinds)
+
     def test_fingers_near_the_surface_are_moved_onto_it(self):
         near = self.grasp("near", self.first)
         near["joints"]["finger0_joint2"] += 0.01
@@ -155,6 +168,9 @@ class HandGraspEnds(ProgramCase):
                             "--start", "set.jsonl:first", "--goal", "set.jsonl:last", "--output", "new.json")
 
     def test_no_plan_is_a_negative_result(self):
+        self.assert_done(*self.arguments("--turn", "z,200", "--seed", "1", "--robustness", "none"))
+        plan = json.loads(self.read("plan.json"))
+        self.write_grasps(self.grasp("first", plan["hand"]["initial"]), self.grasp("last", last_state(plan["steps"][-1])))
         done = self.run_program(*self.arguments("--start", "set.jsonl:first", "--goal", "set.jsonl:last", "--planner",
                                                 "budget=1", "--robustness", "none", output="new.json"))
         self.assertEqual(done.returncode, 1, done.stderr)
