@@ -60,8 +60,9 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
             "KG");
   BeginGroup(app, "Output");
   app.add_option("-o,--output", options.outputs,
-                 "Reports in JSON Lines, one per grasp. With the suffix .csv a table, with .html a "
-                 "page with a table that can be sorted and filtered. Repeat it for several files")
+                 "Reports in JSON Lines, one per grasp. With the suffix .csv a table, with .npz "
+                 "arrays for numpy.load, with .html a page with a table that can be sorted and "
+                 "filtered. Repeat it for several files")
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();

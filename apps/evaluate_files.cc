@@ -2,10 +2,14 @@
 
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "apps/batch/line_output.h"
 #include "apps/evaluate_csv.h"
+#include "apps/evaluate_npz.h"
 #include "apps/evaluate_page.h"
 #include "apps/evaluate_table.h"
 #include "apps/output_files.h"
@@ -31,6 +35,20 @@ void WriteTable(const EvaluateFiles& files, const std::string& grasps) {
   WriteFile(files.table, text);
 }
 
+/// Write the NPZ file.
+void WriteArrays(const EvaluateFiles& files) {
+  std::vector<GraspRow> rows;
+  ReadGraspRows(files.reports, [&](GraspRow row) { rows.push_back(std::move(row)); });
+  std::string bytes;
+  try {
+    bytes = FormatGraspNpz(rows);
+  } catch (const std::length_error&) {
+    throw InputError("--output: " + files.arrays + ": " + std::to_string(rows.size()) +
+                     " grasps are too many for an NPZ file, expected at most 2 GB");
+  }
+  WriteFile(files.arrays, bytes);
+}
+
 }  // namespace
 
 EvaluateFiles SortEvaluateOutputs(const EvaluateOptions& options) {
@@ -38,6 +56,8 @@ EvaluateFiles SortEvaluateOutputs(const EvaluateOptions& options) {
   for (const std::string& file : options.outputs) {
     if (LowerSuffix(file) == ".csv") {
       SetOutput(file, "CSV", files.table);
+    } else if (LowerSuffix(file) == ".npz") {
+      SetOutput(file, "NPZ", files.arrays);
     } else if (IsHtmlFile(file)) {
       SetOutput(file, "HTML", files.page);
     } else {
@@ -49,13 +69,15 @@ EvaluateFiles SortEvaluateOutputs(const EvaluateOptions& options) {
     throw InputError("--shard requires an output in JSON Lines, found " + options.outputs.front());
   }
   files.keeps_reports = false;
-  files.reports = (files.page.empty() ? files.table : files.page) + kPartEnding;
+  const std::string& table = files.table.empty() ? files.arrays : files.table;
+  files.reports = (files.page.empty() ? table : files.page) + kPartEnding;
   return files;
 }
 
 void WriteEvaluateFiles(const EvaluateFiles& files, const EvaluateOptions& options) {
   const std::string grasps = std::filesystem::path(options.grasps).filename().string();
   if (!files.table.empty()) WriteTable(files, grasps);
+  if (!files.arrays.empty()) WriteArrays(files);
   if (!files.page.empty()) {
     const std::filesystem::path folder = std::filesystem::absolute(files.page).parent_path();
     const std::string images =

@@ -13,15 +13,16 @@ struct EvaluateFiles {
   std::string reports;
   bool keeps_reports = true;  ///< whether `reports` is an output of the command line
   std::string table;          ///< CSV
+  std::string arrays;         ///< NPZ
   std::string page;           ///< HTML
 };
 
-/// Sort the outputs of the command line by format: .csv, .html or .htm, otherwise JSON Lines.
+/// Sort the outputs of the command line by format: .csv, .npz, .html or .htm, otherwise JSON Lines.
 /// @throws InputError  if two outputs have the same format, or a shard has no output in JSON Lines.
 [[nodiscard]] EvaluateFiles SortEvaluateOutputs(const EvaluateOptions& options);
 
-/// Write the table and the page of a complete run, and print the counts unless `quiet`.
-/// @throws InputError  if the file of reports is invalid.
+/// Write table, arrays and page of a complete run, and print the counts unless `quiet`.
+/// @throws InputError  if the file of reports is invalid, or too large for an NPZ file.
 /// @throws EnvironmentError  if a file cannot be written.
 void WriteEvaluateFiles(const EvaluateFiles& files, const EvaluateOptions& options);
 

@@ -174,7 +174,7 @@ class EvaluateLines {
   void CheckFiles() const {
     OutputFiles outputs;
     for (const std::string& file :
-         {files_.reports, files_.reports + kPartEnding, files_.table, files_.page}) {
+         {files_.reports, files_.reports + kPartEnding, files_.table, files_.arrays, files_.page}) {
       outputs.Add("--output", file);
     }
     if (!options_.images.empty()) {

@@ -15,7 +15,7 @@ struct EvaluateOptions {
   std::string grasps;  ///< file of hand grasps, JSON Lines
   std::string hand;
   std::string object;  ///< object file, or a folder of object files
-  /// Files of the results: JSON Lines, or by suffix CSV (.csv) and HTML (.html).
+  /// Files of the results: JSON Lines, or by suffix CSV (.csv), NPZ (.npz) and HTML (.html).
   std::vector<std::string> outputs;
   std::string images;  ///< folder of an image per grasp; empty: none
   std::vector<sim::GraspProtocol> protocols;

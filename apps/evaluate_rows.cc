@@ -23,13 +23,18 @@ std::string TextOf(const JsonReader& json, const char* key) {
 }
 
 /// Return the smallest number of an array; null elements do not count.
-std::optional<double> SmallestOf(const JsonReader& json, const char* key) {
+/// @param by_direction  output: all numbers, if the array exists.
+std::optional<double> SmallestOf(const JsonReader& json, const char* key,
+                                 std::array<std::optional<double>, kDirections>& by_direction) {
   if (!json.Has(key)) return std::nullopt;
   std::optional<double> smallest;
+  std::size_t direction = 0;
   for (const JsonReader& element : json.Member(key).Elements()) {
+    if (direction == kDirections) json.Member(key).Fail("expected at most 6 numbers");
+    std::optional<double>& place = by_direction[direction++];
     if (element.IsNull()) continue;
-    const double number = element.Number();
-    smallest = smallest ? std::min(*smallest, number) : number;
+    place = element.Number();
+    smallest = smallest ? std::min(*smallest, *place) : *place;
   }
   return smallest;
 }
@@ -47,8 +52,8 @@ void ReadResult(const JsonReader& json, GraspRow& row) {
   cell.quality = NumberOf(json, "quality");
   cell.moved_mm = NumberOf(json, "moved_mm");
   cell.rotated_deg = NumberOf(json, "rotated_deg");
-  cell.seconds = SmallestOf(json, "seconds");
-  cell.resisted_N = SmallestOf(json, "resisted_N");
+  cell.seconds = SmallestOf(json, "seconds", cell.by_direction);
+  cell.resisted_N = SmallestOf(json, "resisted_N", cell.by_direction);
 }
 
 void ReadReport(const Json& value, const JsonReader& json, GraspRow& row) {

@@ -16,6 +16,9 @@ namespace regrasp::apps {
 inline constexpr std::array<std::string_view, 4> kProtocolNames = {"analytic", "dexgraspbench",
                                                                    "fall", "disturbance"};
 
+/// Number of directions of loads, in the order −x, x, −y, y, −z, z.
+inline constexpr std::size_t kDirections = 6;
+
 /// Result of a protocol in a report. Only the values of its protocol are set.
 struct ProtocolCell {
   std::string verdict;  ///< "pass" or "fail"; empty: not tested
@@ -23,6 +26,8 @@ struct ProtocolCell {
   std::optional<double> quality, moved_mm, rotated_deg;
   std::optional<double> seconds;     ///< smallest held time of all directions
   std::optional<double> resisted_N;  ///< smallest resisted force of all directions
+  /// Held time or resisted force by direction; nullopt: not measured.
+  std::array<std::optional<double>, kDirections> by_direction = {};
 };
 
 /// One line of a file that `evaluate` wrote, for tables.

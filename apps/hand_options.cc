@@ -199,10 +199,12 @@ void HandOptions::AddTo(CLI::App& app) {
                  "up or down. Degrees: largest angle between both. Rotation about the axis and "
                  "position are free. A leading minus sign requires --goal-facing=-y,up,30")
       ->type_name("AXIS,DIRECTION,DEGREES");
-  app.add_option("--goal-tolerance", goal_tolerance,
-                 "Tolerance of --goal-pose or --turn: position, angle, as in 0.005,10. "
-                 "Position: that of the object's origin, with --turn that of its centre "
-                 "[default: 0.001,1; with --turn some millimetres, exact rotation]")
+  app.add_option(
+         "--goal-tolerance", goal_tolerance,
+         "Tolerance of --goal-pose, --turn or the pose of a hand grasp: position, angle, as in "
+         "0.005,10. "
+         "Position: that of the object's origin, with --turn that of its centre "
+         "[default: 0.001,1; with --turn some millimetres, exact rotation]")
       ->type_name("METRES,DEGREES");
   app.add_option("--goals", goals,
                  "File of named goals in JSON. The plan reaches them one after the other and marks "
@@ -244,7 +246,7 @@ void HandOptions::AddTo(CLI::App& app) {
   MarkRare(app, {"--clearance"});
 }
 
-void HandOptions::Check(const std::string& start, const std::string& goal) const {
+void HandOptions::Check(const Ends& ends) const {
   for (const auto& [option, value] : {std::pair("--turn", turn),
                                       {"--start-pose", start_pose},
                                       {"--goal-pose", goal_pose},
@@ -258,13 +260,14 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
     throw InputError(std::string(option) + " requires --hand");
   }
   if (!given()) return;
-  const bool moves = !turn.empty() || !goal_pose.empty() || !goal_facing.empty() || !goals.empty();
-  if (!moves && goal.empty()) {
+  const bool moves = ends.ends_at_hand_grasp || !turn.empty() || !goal_pose.empty() ||
+                     !goal_facing.empty() || !goals.empty();
+  if (!moves && !ends.has_goal) {
     throw InputError(
         "--hand: requires a task, --turn, --goal-pose, --goal-facing, --goals or --goal; help: "
         "--turn z,90");
   }
-  if (!moves && start.empty() && start_pose.empty() && continue_plan.empty()) {
+  if (!moves && !ends.has_start && start_pose.empty() && continue_plan.empty()) {
     throw InputError("--goal: with --hand requires --start or --start-pose");
   }
   if (!turn.empty() && !goal_pose.empty()) {
@@ -277,7 +280,7 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
   for (const auto& [option, value] : {std::pair("--turn", turn),
                                       {"--goal-pose", goal_pose},
                                       {"--goal-facing", goal_facing},
-                                      {"--goal", goal}}) {
+                                      {"--goal", ends.has_goal ? "given" : ""}}) {
     if (goals.empty() || value.empty()) continue;
     throw InputError(std::string("--goals: cannot be used with ") + option);
   }
@@ -288,13 +291,28 @@ void HandOptions::Check(const std::string& start, const std::string& goal) const
                      ", which depends on the direction of gravity");
   }
   for (const auto& [option, value] :
-       {std::pair("--start", start), {"--start-pose", start_pose}, {"--gravity", gravity}}) {
+       {std::pair("--start", std::string(ends.has_start ? "given" : "")),
+        {"--start-pose", start_pose},
+        {"--gravity", gravity}}) {
     if (continue_plan.empty() || value.empty()) continue;
     throw InputError(std::string("--continue: cannot be used with ") + option);
   }
-  if (!goal_tolerance.empty() && turn.empty() && goal_pose.empty()) {
+  if (!goal_tolerance.empty() && turn.empty() && goal_pose.empty() && !ends.ends_at_hand_grasp) {
     throw InputError("--goal-tolerance: requires --goal-pose or --turn");
   }
+  if (ends.starts_at_hand_grasp && !start_pose.empty()) {
+    throw InputError("--start: a hand grasp states the pose, cannot be used with --start-pose");
+  }
+  for (const auto& [option, value] :
+       {std::pair("--turn", turn), {"--goal-pose", goal_pose}, {"--goal-facing", goal_facing}}) {
+    if (!ends.ends_at_hand_grasp || value.empty()) continue;
+    throw InputError(std::string("--goal: a hand grasp states the pose, cannot be used with ") +
+                     option);
+  }
+}
+
+plan::PoseTolerance HandOptions::GoalTolerance() const {
+  return goal_tolerance.empty() ? plan::PoseTolerance() : ParseTolerance(goal_tolerance);
 }
 
 void HandOptions::AskFor(planning::InHandTask& task) const {

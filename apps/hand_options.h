@@ -32,10 +32,19 @@ struct HandOptions {
   void AddTo(CLI::App& app);
 
   [[nodiscard]] bool given() const { return !hand.empty(); }
+  /// Start and goal of `plan`.
+  struct Ends {
+    bool has_start = false;
+    bool has_goal = false;
+    bool starts_at_hand_grasp = false;
+    bool ends_at_hand_grasp = false;
+  };
   /// Check that the options are consistent.
-  /// @param start, goal  values of `plan --start` and `--goal`.
   /// @throws InputError  if a task is missing or stated twice.
-  void Check(const std::string& start, const std::string& goal) const;
+  void Check(const Ends& ends) const;
+  /// Return the tolerance of the goal pose.
+  /// @throws InputError  if the option is malformed.
+  [[nodiscard]] plan::PoseTolerance GoalTolerance() const;
   /// Fill in the task.
   /// @throws InputError  if an option is malformed.
   void AskFor(planning::InHandTask& task) const;

@@ -50,7 +50,7 @@ void CheckOutput(const PlanProgram& program) {
                                    {"--goals", program.hand.goals},
                                    {"--continue", program.hand.continue_plan}};
   for (const PlanEnd& end : {program.start, program.goal}) {
-    if (!end.is_random()) inputs.push_back({end.option, end.value});
+    if (!end.is_random()) inputs.push_back({end.option, FileOfEnd(end.value)});
   }
   OutputFiles outputs;
   if (program.output != "-") outputs.Add("--output", program.output);
@@ -133,6 +133,7 @@ void WriteOutputs(const PlanProgram& program, const object::ObjectFile& object,
 
 int RunOne(PlanProgram program) {
   const PlannerOptions& common = program.common;
+  program.ReadHandGrasps();
   program.CheckEnds();
   CheckOutput(program);
   program.ReadHand();

@@ -148,8 +148,8 @@ class PlanLines {
     outputs.Add("--output", program_.output + kPartEnding);
     CheckOutputsDiffer({{"--object", program_.common.object},
                         {"--batch", program_.batch},
-                        {"--start", program_.start.value},
-                        {"--goal", program_.goal.value},
+                        {"--start", FileOfEnd(program_.start.value)},
+                        {"--goal", FileOfEnd(program_.goal.value)},
                         {"--hand", program_.hand.hand}},
                        outputs);
     std::error_code error;
@@ -172,8 +172,9 @@ class PlanLines {
       digest.Add(end.option, end.value);
     }
     std::error_code error;
-    const bool file = end.given() && !end.is_random() && std::filesystem::exists(end.value, error);
-    if (file) digest.Add("sha256", Sha256(ReadFile(end.value)));
+    const std::string path = FileOfEnd(end.value);
+    const bool file = end.given() && !end.is_random() && std::filesystem::exists(path, error);
+    if (file) digest.Add("sha256", Sha256(ReadFile(path)));
   }
 
   /// Return the digest of all inputs that the results of all queries depend on.
@@ -242,6 +243,7 @@ class PlanLines {
   std::string PlanLine(const Line& line) {
     Query query = ReadQuery(line, program_);
     PlanProgram& asked = query.program;
+    asked.ReadHandGrasps();
     asked.CheckEnds();
     const SharedObject object = ObjectOf(line, query);
     criteria::CheckFingerRadius(*object->object, asked.finger_radius, "--finger-radius");

@@ -22,6 +22,7 @@
 #include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
 #include "sim/actuation/simulate_execution.h"
+#include "sim/hand_grasps/fingertip_grasp.h"
 
 namespace regrasp::apps {
 
@@ -79,9 +80,12 @@ void PlanProgram::AddEnds(CLI::App& app) {
   app.add_option("--start", start.value,
                  "Start grasp. A grasp file, random (from the planner's graph; random-any with "
                  "--planner auto) or random-any (uniform on the surface). Required without --hand, "
-                 "which supports files only")
+                 "which supports files only. With --hand also a hand grasp, FILE:NAME: its object "
+                 "pose, fingertip contacts and joint angles are the start")
       ->type_name("FILE|random|random-any");
-  app.add_option("--goal", goal.value, "Goal grasp. As --start")
+  app.add_option("--goal", goal.value,
+                 "Goal grasp. As --start. For a hand grasp, object pose and contacts are the goal; "
+                 "joint angles are free")
       ->type_name("FILE|random|random-any");
 }
 
@@ -155,30 +159,60 @@ planning::PlanRequest PlanProgram::RequestFor(const object::Object& object) cons
   return request;
 }
 
+plan::HandEnd PlanProgram::StateOf(const NamedHandGrasp& given, const object::ObjectFile& object,
+                                   double clearance) const {
+  return sim::FingertipGraspOf(given.grasp,
+                               {*hand_file, dynamic_cast<const object::Polyhedron&>(*object.object),
+                                object.file, common.scale, clearance},
+                               given.name);
+}
+
+planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, PlanEnd& from,
+                                          PlanEnd& to) const {
+  planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.object);
+  task.simulate = sim::ExecutionSimulator(*hand_file, solid,
+                                          sim::PlanningConditions(hand.robustness.conditions));
+  task.rate = sim::ExecutionRater(*hand_file, solid);
+  hand.AskFor(task);
+  const auto set_contacts = [&](const plan::HandEnd& state, PlanEnd& end) {
+    end.text = plan::FormatGrasp(plan::ContactsOf(state.grasp), object.object->dimension());
+    end.name = end.hand_grasp->name;
+  };
+  std::optional<plan::HandEnd> begin;
+  if (continued) {
+    CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
+    begin = plan::EndOfPlan(*continued);
+    if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
+  } else if (from.hand_grasp) {
+    begin = StateOf(*from.hand_grasp, object, task.margin);
+    set_contacts(*begin, from);
+  }
+  if (begin) gait::StartFrom(*begin, task);
+  if (to.hand_grasp) {
+    plan::HandEnd end = StateOf(*to.hand_grasp, object, task.margin);
+    if (begin) sim::KeepContacts(*begin, common.scale, end);
+    set_contacts(end, to);
+    gait::EndAt(end, hand.GoalTolerance(), task);
+  }
+  return task;
+}
+
 planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
                                        const GivenPoints& given) const {
   planning::PlanRequest request = RequestFor(*object.object);
   if (given) request.given_points = &*given;
+  PlanEnd from = start;
+  PlanEnd to = goal;
   if (hand_file) {
     if (object.object->dimension() != 3) {
       throw InputError("--hand: requires a solid, found a planar object");
     }
-    planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
-    const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.object);
-    task.simulate = sim::ExecutionSimulator(*hand_file, solid,
-                                            sim::PlanningConditions(hand.robustness.conditions));
-    task.rate = sim::ExecutionRater(*hand_file, solid);
-    hand.AskFor(task);
-    if (continued) {
-      CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
-      gait::StartFrom(plan::EndOfPlan(*continued), task);
-      if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
-    }
-    gait::AskInHand(task, request);
+    gait::AskInHand(TaskFor(object, from, to), request);
   }
   const planning::Planner& planner = common.PlannerFor(request);
-  if (start.given()) request.start = Choose(start, *object.object);
-  if (goal.given()) request.goal = Choose(goal, *object.object);
+  if (from.given()) request.start = Choose(from, *object.object);
+  if (to.given()) request.goal = Choose(to, *object.object);
   ProgressLine progress(common.quiet);
   std::once_flag begun;
   request.progress = [&](std::string_view text) {
@@ -193,6 +227,21 @@ planning::PlanResult PlanProgram::Find(const object::ObjectFile& object,
   return result;
 }
 
+void PlanProgram::ReadHandGrasps() {
+  for (PlanEnd* end : {&start, &goal}) {
+    end->hand_grasp.reset();
+    if (!end->text.empty()) {
+      if (!IsHandGrasp(end->text)) continue;
+      end->hand_grasp = {sim::ParseHandGrasp(end->text, end->name), end->name};
+    } else if (!end->is_random()) {
+      end->hand_grasp = FindHandGrasp(end->option, end->value);
+    }
+    if (end->hand_grasp && !hand.given()) {
+      throw InputError(end->option + ": a hand grasp requires --hand");
+    }
+  }
+}
+
 void PlanProgram::CheckEnds() const {
   for (const PlanEnd& end : {start, goal}) {
     if (hand.given() && end.is_random()) {
@@ -202,7 +251,8 @@ void PlanProgram::CheckEnds() const {
     // not given.
     if (!hand.given() && !end.given()) throw InputError(end.option + " is required");
   }
-  hand.Check(start.value + start.text, goal.value + goal.text);
+  hand.Check(
+      {start.given(), goal.given(), start.hand_grasp.has_value(), goal.hand_grasp.has_value()});
 }
 
 void PlanProgram::ReadHand() {

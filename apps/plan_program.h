@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "apps/hand_grasp_end.h"
 #include "apps/hand_options.h"
 #include "apps/planner_options.h"
 #include "planner/criteria/grasp_criteria.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/object.h"
 #include "planner/plan/check.h"
+#include "planner/planning/in_hand_task.h"
 #include "planner/planning/planner.h"
 
 namespace regrasp::apps {
@@ -26,9 +28,11 @@ inline constexpr char kPlanName[] = "plan";
 /// Start or goal on the command line.
 struct PlanEnd {
   std::string option;  ///< name of the option: "--start"
-  std::string value;   ///< grasp file, "random" or "random-any"; empty: not given
+  std::string value;   ///< FILE, FILE:NAME, "random" or "random-any"; empty: not given
   std::string text;    ///< text of the grasp, instead of a file
   std::string name;    ///< name of `text` in messages
+  /// Hand grasp of the file or text. Set by PlanProgram::ReadHandGrasps.
+  std::optional<NamedHandGrasp> hand_grasp = {};
 
   [[nodiscard]] bool given() const { return !value.empty() || !text.empty(); }
   [[nodiscard]] bool is_random() const;
@@ -77,6 +81,9 @@ struct PlanProgram {
   /// @throws InputError  if they are inconsistent.
   void Finish(const CLI::App& app);
 
+  /// Read start and goal if they are hand grasps.
+  /// @throws InputError  if one of them is not valid.
+  void ReadHandGrasps();
   /// Check that start and goal are given, as far as they are required.
   /// @throws InputError  if one is missing or cannot be used with a hand.
   void CheckEnds() const;
@@ -95,6 +102,13 @@ struct PlanProgram {
   void ReadContinuedPlan();
   [[nodiscard]] planning::GraspChoice Choose(const PlanEnd& end,
                                              const object::Object& object) const;
+  /// Return the state of a hand grasp.
+  [[nodiscard]] plan::HandEnd StateOf(const NamedHandGrasp& given, const object::ObjectFile& object,
+                                      double clearance) const;
+  /// Return the task of the options, with the poses of hand grasps and of --continue. Sets the
+  /// contacts of ends that are hand grasps as text.
+  [[nodiscard]] planning::InHandTask TaskFor(const object::ObjectFile& object, PlanEnd& from,
+                                             PlanEnd& to) const;
   [[nodiscard]] planning::PlanRequest RequestFor(const object::Object& object) const;
   [[nodiscard]] planning::PlanResult Find(const object::ObjectFile& object,
                                           const GivenPoints& given) const;

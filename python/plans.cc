@@ -12,6 +12,7 @@
 #include "planner/certificate/align_certificate.h"
 #include "planner/criteria/reach.h"
 #include "planner/gait/gait_planner.h"
+#include "planner/gait/goal_list.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/goal_set_io.h"
 #include "planner/plan/grasp_io.h"
@@ -23,6 +24,7 @@
 #include "planner/roadmap/roadmap_parameters.h"
 #include "python/binding.h"
 #include "sim/actuation/simulate_execution.h"
+#include "sim/hand_grasps/fingertip_grasp.h"
 
 namespace regrasp::python {
 
@@ -61,6 +63,7 @@ struct HandArguments {
   double clearance = 1e-3;
   planning::RobustnessLevel robustness = planning::RobustnessLevel::kRequired;
   bool is_standard = false;  ///< whether plans must execute under PlanningRobustness::kStandard
+  std::string start_hand_grasp, goal_hand_grasp;  ///< lines of hand grasps; empty: none
 };
 
 std::optional<Eigen::Isometry3d> PoseOf(const std::optional<std::array<double, 7>>& numbers) {
@@ -102,6 +105,31 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
                                                         : sim::PlanningRobustness::kNominal)),
           .rate = sim::ExecutionRater(hand.file, solid)};
+}
+
+/// Let a task start and end at hand grasps, if there are any.
+void UseHandGrasps(const PythonObject& object, const PythonHand& hand, const HandArguments& asked,
+                   planning::InHandTask& task, PlanArguments& given) {
+  const auto& solid = dynamic_cast<const object::Polyhedron&>(*object.file.object);
+  const auto state_of = [&](const std::string& text, const char* name) {
+    return sim::FingertipGraspOf(sim::ParseHandGrasp(text, name),
+                                 {hand.file, solid, object.file.file, object.scale, task.margin},
+                                 name);
+  };
+  const auto contacts_of = [&](const plan::HandEnd& end) {
+    return plan::FormatGrasp(plan::ContactsOf(end.grasp), solid.dimension());
+  };
+  std::optional<plan::HandEnd> begin;
+  if (!asked.start_hand_grasp.empty()) {
+    begin = state_of(asked.start_hand_grasp, "start");
+    given.start = contacts_of(*begin);
+    gait::StartFrom(*begin, task);
+  }
+  if (asked.goal_hand_grasp.empty()) return;
+  plan::HandEnd end = state_of(asked.goal_hand_grasp, "goal");
+  if (begin) sim::KeepContacts(*begin, object.scale, end);
+  given.goal = contacts_of(end);
+  gait::EndAt(end, {}, task);
 }
 
 planning::GraspChoice Choose(const char* name, const std::string& value, bool any,
@@ -218,13 +246,17 @@ void BindPlans(py::module_& module) {
       .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)
       .def_readwrite("robustness", &HandArguments::robustness)
-      .def_readwrite("is_standard", &HandArguments::is_standard);
+      .def_readwrite("is_standard", &HandArguments::is_standard)
+      .def_readwrite("start_hand_grasp", &HandArguments::start_hand_grasp)
+      .def_readwrite("goal_hand_grasp", &HandArguments::goal_hand_grasp);
   module.def("up_directions",
              [](const PythonHand& hand) { return kinematics::UpDirections(hand.file.hand); });
   module.def("find_plan_in_hand",
-             [](const PythonObject& object, const PlanArguments& given, const PythonHand& hand,
+             [](const PythonObject& object, PlanArguments given, const PythonHand& hand,
                 const HandArguments& asked, py::object progress) {
-               return FindPlan(object, given, std::move(progress), TaskOf(object, hand, asked));
+               planning::InHandTask task = TaskOf(object, hand, asked);
+               UseHandGrasps(object, hand, asked, task, given);
+               return FindPlan(object, given, std::move(progress), task);
              });
   // Planners for fingers without a hand.
   module.def("planner_names", [] {

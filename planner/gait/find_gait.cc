@@ -128,16 +128,18 @@ std::vector<int> AppendGrasp(const grasp::Grasp& grasp, std::vector<grasp::Conta
   return numbers;
 }
 
+/// @param end  "start" or "goal".
 /// @throws std::invalid_argument  if the number of fingers differs from the number of contacts, or
 ///     the hand has no such finger.
-void CheckStartFingers(const GaitRequest& request) {
-  const std::vector<FingerIndex>& fingers = request.start_fingers;
+void CheckFingers(const GaitRequest& request, const std::vector<FingerIndex>& fingers,
+                  const grasp::Grasp& grasp, const std::string& end) {
   const int count = static_cast<int>(request.hand->fingers.size());
   const auto is_there = [&](FingerIndex finger) { return finger >= 0 && finger < count; };
   if (fingers.empty()) return;
-  if (fingers.size() != request.start_grasp.size() || !std::ranges::all_of(fingers, is_there)) {
+  if (fingers.size() != grasp.size() || !std::ranges::all_of(fingers, is_there)) {
     throw std::invalid_argument(
-        "start_fingers: must name one finger of the hand for each contact of the start grasp");
+        end + "_fingers: must name one finger of the hand for each contact of the " + end +
+        " grasp");
   }
 }
 
@@ -281,7 +283,8 @@ std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, do
 }  // namespace
 
 GaitResult FindGait(const GaitRequest& request) {
-  CheckStartFingers(request);
+  CheckFingers(request, request.start_fingers, request.start_grasp, "start");
+  CheckFingers(request, request.goal_fingers, request.goal_grasp, "goal");
   const collision::SurfaceTree surface(*request.solid, request.scale);
   CheckReach(request, surface, request.start_pose, "start pose");
   if (request.goal && request.goal->HasDefaultTolerance()) {
@@ -291,7 +294,8 @@ GaitResult FindGait(const GaitRequest& request) {
   result.contacts = DrawContacts(request);
   request.progress("searching a gait");
   GaitEnds ends{AppendGrasp(request.start_grasp, result.contacts),
-                AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers};
+                AppendGrasp(request.goal_grasp, result.contacts), request.start_fingers,
+                request.goal_fingers};
   ends.start_configurations = StartConfigurations(request);
   std::vector<SurfacePoint> points;
   for (const grasp::Contact& contact : result.contacts) {

@@ -55,8 +55,8 @@ struct GaitResult {
 /// Laws: without a deadline, equal requests give bit-identical gaits for any number of jobs. Every
 /// stance is force closure and meets the criteria if possible. Every path is certified (IsClear in
 /// finger_path.h).
-/// @throws std::invalid_argument  if start_fingers does not name one finger of the hand per contact
-///     of the start grasp, or start_joints are not those of the hand.
+/// @throws std::invalid_argument  if start_fingers or goal_fingers does not name one finger of the
+///     hand per contact of its grasp, or start_joints are not those of the hand.
 /// @throws InputError  if fewer than three fingers can touch the object at the start or goal pose
 ///     in any joint configuration.
 [[nodiscard]] GaitResult FindGait(const GaitRequest& request);

@@ -212,6 +212,13 @@ void StartFrom(const plan::HandEnd& end, planning::InHandTask& task) {
   for (const plan::FingerContact& held : end.grasp) task.start_fingers.push_back(held.finger);
 }
 
+void EndAt(const plan::HandEnd& end, const plan::PoseTolerance& tolerance,
+           planning::InHandTask& task) {
+  task.goal.emplace(plan::PoseGoal{end.state.pose, tolerance});
+  task.goal_fingers.clear();
+  for (const plan::FingerContact& held : end.grasp) task.goal_fingers.push_back(held.finger);
+}
+
 GoalListResult FindPlanThroughGoals(const GaitRequest& request) {
   return GoalListSearch(request).Run();
 }

@@ -26,6 +26,11 @@ struct GoalListResult {
 /// Sets pose, joints and fingers; the start grasp of the request must be that of the end.
 void StartFrom(const plan::HandEnd& end, planning::InHandTask& task);
 
+/// Let a task end at a state, of which joint angles are free.
+/// Sets goal pose and fingers; the goal grasp of the request must be that of the end.
+void EndAt(const plan::HandEnd& end, const plan::PoseTolerance& tolerance,
+           planning::InHandTask& task);
+
 /// Find a plan that reaches the goals of a request one after the other.
 /// A depth-first search over end states. For each goal it finds up to three end states, each with a
 /// gait from the end of the previous goal (FindGait). It continues with an end state from which a

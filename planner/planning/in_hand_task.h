@@ -86,6 +86,8 @@ struct InHandTask {
   /// Joint angles [finger][joint] at the start, radians (plan::HandState::joints); empty: any.
   /// Requires `start_pose` and `start_fingers`.
   std::vector<std::vector<double>> start_joints = {};
+  /// Fingers of the contacts of a given goal grasp, in its order; empty: any fingers.
+  std::vector<FingerIndex> goal_fingers = {};
   /// Simulates the execution of a plan until the deadline (sim/actuation/simulate_execution.h).
   /// Returns nullopt if the hand has no actuators. Called only if `robustness` is not kNone, by as
   /// many threads as the request has jobs. Empty: plans are not simulated.

@@ -16,6 +16,27 @@ def matrices(quaternions: np.ndarray) -> np.ndarray:
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
+def of_matrices(rotations: np.ndarray) -> np.ndarray:
+    """Return unit quaternions (N, 4) of rotation matrices (N, 3, 3).
+
+    Each uses the formula with the largest divisor of four (Shepperd 1978).
+    """
+    m = rotations
+    trace = np.trace(m, axis1=1, axis2=2)
+    # Rows k of `columns` are 4 q_k q, for q = w, x, y, z.
+    columns = np.stack([
+        np.stack([1 + trace, m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]], axis=1),
+        np.stack([m[:, 2, 1] - m[:, 1, 2], 1 + 2 * m[:, 0, 0] - trace, m[:, 0, 1] + m[:, 1, 0],
+                  m[:, 0, 2] + m[:, 2, 0]], axis=1),
+        np.stack([m[:, 0, 2] - m[:, 2, 0], m[:, 0, 1] + m[:, 1, 0], 1 + 2 * m[:, 1, 1] - trace,
+                  m[:, 1, 2] + m[:, 2, 1]], axis=1),
+        np.stack([m[:, 1, 0] - m[:, 0, 1], m[:, 0, 2] + m[:, 2, 0], m[:, 1, 2] + m[:, 2, 1],
+                  1 + 2 * m[:, 2, 2] - trace], axis=1)], axis=1)
+    largest = np.argmax(np.einsum("nkk->nk", columns), axis=1)
+    chosen = columns[np.arange(len(m)), largest]
+    return chosen / np.linalg.norm(chosen, axis=1, keepdims=True)
+
+
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return the quaternion of the rotation `b` followed by `a`."""
     aw, av, bw, bv = a[..., :1], a[..., 1:], b[..., :1], b[..., 1:]

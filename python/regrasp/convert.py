@@ -19,9 +19,13 @@ from .hands import Hand
 from .objects import Object
 
 _EPILOG = """Input, by file ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
-(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), grasps of MultiGripperGrasp (.json), plans of HiDex (.csv), plans of regrasp for a hand (.json),
+(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), grasps of MultiGripperGrasp (.json) and ACRONYM (.h5), plans of HiDex (.csv), plans of regrasp for a hand (.json),
 trajectories of validate (.npz, to .mcap). Output: hand grasps for evaluate
 (.jsonl), isaac_grasp 1.0 (.yaml), contacts for validate --grasps (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
+
+
+_HDF5 = (".h5", ".hdf5")
+"""File endings of HDF5."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -151,7 +155,9 @@ def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
         return formats.read_isaac_grasp(path)
     if ending == ".xml":
         return formats.read_graspit(path)
-    raise InputError(f"{path}: file type not supported, expected .yaml, .npy, .npz, .xml, .csv or .json")
+    if ending in _HDF5:
+        return formats.read_acronym(path)
+    raise InputError(f"{path}: file type not supported, expected .yaml, .npy, .npz, .xml, .h5, .csv or .json")
 
 
 def _fitting(path: str, grasps: formats.HandGrasps, hand: Hand | None) -> formats.HandGrasps:
@@ -339,10 +345,10 @@ def _grasp_files(inputs: list[str]) -> list[tuple[str, str]]:
             files.append((path, ""))
             continue
         below = sorted(os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names
-                       if _ending(name) in (".npy", ".npz", ".yaml", ".yml", ".xml") or
+                       if _ending(name) in (".npy", ".npz", ".yaml", ".yml", ".xml", *_HDF5) or
                        _ending(name) == ".json" and _is_multigrippergrasp(os.path.join(folder, name)))
         if not below:
-            raise InputError(f"{path}: no grasps found, expected .npy, .npz, .yaml, .xml or .json files")
+            raise InputError(f"{path}: no grasps found, expected .npy, .npz, .yaml, .xml, .h5 or .json files")
         for file in below:
             folder = os.path.dirname(os.path.relpath(file, path))
             files.append((file, folder.replace(os.sep, "/") + "/" if folder else ""))

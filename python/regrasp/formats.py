@@ -1,5 +1,6 @@
 """Grasps and plans in third-party formats (docs/interchange.md has the table)."""
 
+from ._acronym import read_acronym
 from ._dexgraspbench import read_bodex, read_dexgraspbench
 from ._dexgraspnet import read_dexgraspnet
 from ._finger_grasps import FingerGrasps
@@ -19,6 +20,7 @@ __all__ = [
     "HandMotion",
     "motion_of_plan",
     "of_plan",
+    "read_acronym",
     "read_bodex",
     "read_dexgraspbench",
     "read_dexgraspnet",

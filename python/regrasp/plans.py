@@ -217,7 +217,7 @@ def plan(object: Object, start: GivenGrasp, goal: GivenGrasp, mu: float | None =
 
 def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  friction_angle_deg: float | None = None, turn: tuple[str, float] | None = None,
-                 start: GivenGrasp | None = None, goal: GivenGrasp | None = None,
+                 start: GivenGrasp | dict | None = None, goal: GivenGrasp | dict | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  goals: str | os.PathLike | Sequence[dict] | None = None,
                  gravity: str | ArrayLike | None = None, closure: str = "force", optimize: str = "steps",
@@ -236,8 +236,10 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         mu: friction coefficient; give either `mu` or `friction_angle_deg`.
         friction_angle_deg: friction angle, degrees.
         turn: rotation, as a pair of an object axis ("x", "y" or "z") and an angle in degrees.
-        start: start grasp of three contacts or more, in the forms of `plan`; default: any.
-        goal: goal grasp, in the same forms.
+        start: start grasp of three contacts or more, in the forms of `plan`; default: any. A
+            dictionary is a hand grasp (docs/format_hand_grasps.md): its object pose, fingertip
+            contacts and joint angles are the start.
+        goal: goal grasp, in the same forms. For a hand grasp, object pose and contacts are the goal.
         start_pose: initial pose of the object frame in the palm frame. Seven numbers: position in
             metres and unit quaternion w, x, y, z. Default: the pose at which the fingers reach most
             of the object.
@@ -282,15 +284,23 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             raise InputError(f"goals cannot be used with {name}")
     if turn is None and goal_pose is None and goals is None and goal is None:
         raise InputError('a goal is required: turn=("z", 90), goal_pose, goals or goal')
-    if turn is None and goal_pose is None and goals is None and start is None and start_pose is None:
+    _check_hand_grasps(start, goal, {"turn": turn, "goal_pose": goal_pose}, start_pose)
+    if (turn is None and goal_pose is None and goals is None and start is None and start_pose is None
+            and not isinstance(goal, dict)):
         raise InputError("goal requires start or start_pose")
     given = _asked(mu, friction_angle_deg, seed, min_quality, time_limit)
     if jobs is None:
         jobs = min(os.cpu_count() or 1, _MOST_JOBS)
     given.jobs = _arguments.integer("jobs", jobs, 1, _MOST_JOBS)
-    given.start = "" if start is None else _grasp_text("start", start, object, random=False)
-    given.goal = "" if goal is None else _grasp_text("goal", goal, object, random=False)
     task = _regrasp.HandArguments()
+    if isinstance(start, dict):
+        task.start_hand_grasp = json.dumps(start)
+    elif start is not None:
+        given.start = _grasp_text("start", start, object, random=False)
+    if isinstance(goal, dict):
+        task.goal_hand_grasp = json.dumps(goal)
+    elif goal is not None:
+        given.goal = _grasp_text("goal", goal, object, random=False)
     if turn is not None:
         task.turn_axis, task.turn_angle = _turn(turn)
     task.start_pose = None if start_pose is None else _pose("start_pose", start_pose)
@@ -310,6 +320,15 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
     return _plan_of(object, *_regrasp.find_plan_in_hand(
         object._core, given, hand._core, task, _arguments.callback("progress", progress)))
+
+
+def _check_hand_grasps(start, goal, moves: dict, start_pose) -> None:
+    """Check that poses are not stated in addition to those of hand grasps."""
+    if isinstance(start, dict) and start_pose is not None:
+        raise InputError("start: a hand grasp states the pose, cannot be used with start_pose")
+    for name, value in moves.items():
+        if isinstance(goal, dict) and value is not None:
+            raise InputError(f"goal: a hand grasp states the pose, cannot be used with {name}")
 
 
 def _asked(mu, friction_angle_deg, seed, min_quality, time_limit):

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import os
 import re
 import xml.etree.ElementTree as ElementTree
@@ -11,6 +12,7 @@ import hand_grasp_files
 import program_case
 from browser import Browser
 from hand_grasp_files import grasp
+from npz_file import read_npz
 from picture_pixels import png_pixels, png_size
 from program_case import ProgramCase
 
@@ -76,6 +78,41 @@ class EvaluateOutput(OutputCase):
         self.assertAlmostEqual(float(page["deep"]["penetration, mm"]), 5, delta=0.06)
         self.assertEqual(page["hold"]["fall"], "pass: 3.00 s")
         self.assertNotIn("disturbance", page["hold"])
+
+    def test_arrays_have_the_values_of_the_reports(self):
+        grasps = [grasp("hold", claimed=True, score=0.5, set="demo"), grasp("open", 0.0, claimed=False),
+                  grasp("deep", 0.03)]
+        text = hand_grasp_files.lines(grasps) + "{}\n"
+        self.evaluated(text, "r.jsonl", "a.npz", protocol="analytic,fall,disturbance", code=2)
+        arrays = read_npz(self.path("a.npz"))
+        reports = [json.loads(line) for line in self.read("r.jsonl").splitlines()[1:]]
+        self.assertEqual(arrays["index"], [1, 2, 3, 4])
+        self.assertEqual(arrays["id"], ["hold", "open", "deep", ""])
+        self.assertEqual(arrays["set"], ["demo", "", "", ""])
+        self.assertEqual(arrays["verdict"], ["pass", "fail", "fail", "bad-input"])
+        self.assertEqual(arrays["passed"], [True, False, False, False])
+        self.assertEqual(arrays["reason"][:3], ["", "no-contact", "penetrates"])
+        self.assertIn("grasps.jsonl: line 4", arrays["reason"][3])
+        self.assertEqual(arrays["claimed"][:2], [1, 0])
+        self.assertTrue(all(math.isnan(value) for value in arrays["claimed"][2:] + arrays["score"][1:]))
+        self.assertEqual(arrays["distance_mm"][:3], [report["distance_mm"] for report in reports[:3]])
+        self.assertEqual(arrays["protocols"], ["analytic", "fall", "disturbance"])
+        self.assertEqual(arrays["protocol_verdict"][0], ["pass"] * 3)
+        self.assertEqual(arrays["protocol_verdict"][3], [""] * 3)
+        self.assertEqual(arrays["links"], ["left", "right"])
+        self.assertEqual(arrays["contacts"][:2], [[4, 4], [0, 0]])
+        by_name = {result["protocol"]: result for result in reports[0]["protocols"]}
+        self.assertEqual(arrays["held_s"][0], by_name["fall"]["seconds"])
+        self.assertEqual(arrays["resisted_N"][0], by_name["disturbance"]["resisted_N"])
+        self.assertEqual(arrays["quality"][0], by_name["analytic"]["quality"])
+        self.assertTrue(all(math.isnan(value) for value in arrays["held_s"][3] + arrays["moved_mm"]))
+
+    def test_arrays_have_the_same_bytes_in_every_run(self):
+        self.evaluated([grasp("a"), grasp("b", 0.0)], "a.npz")
+        self.evaluated([grasp("a"), grasp("b", 0.0)], "b.npz", more=["--jobs", "2"])
+        self.assertEqual(self.read("a.npz"), self.read("b.npz"))
+        self.evaluated([grasp("a"), grasp("c", 0.0)], "c.npz")
+        self.assertNotEqual(self.read("a.npz"), self.read("c.npz"))
 
     def test_counts_of_claims_are_on_the_page_per_object_and_hand(self):
         self.evaluated([grasp("a", claimed=True), grasp("b", 0.0, claimed=True), grasp("c", 0.0, claimed=False)], "p.html")

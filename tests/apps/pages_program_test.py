@@ -89,6 +89,7 @@ LEFT = {
     "robustness_trials": ["out/plan/report.json"],
     "protocols_and_engines": ["out/plan/report.json"],
     "reset_states": ["states/states.npz", "scene/scene.xml"],
+    "plan_between_grasps": ["between.json", "out/between/report.html", "plans.jsonl"],
 }
 
 

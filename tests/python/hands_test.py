@@ -12,6 +12,7 @@ import unittest
 import numpy as np
 
 import regrasp
+from regrasp import formats
 from regrasp_case import PROGRAMS, RegraspCase
 
 
@@ -67,6 +68,28 @@ class HandsTest(RegraspCase):
         with self.assertRaisesRegex(regrasp.InputError, "goal pose: .* out of reach of every"):
             regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
                                  goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none")
+
+    def test_a_plan_starts_and_ends_at_hand_grasps(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))
+        plan.write(self.path("plan.json"))
+        grasps = formats.of_plan(self.path("plan.json"), self.hand)
+        formats.write_hand_grasps(self.path("set.jsonl"), [("", grasps)], object_file="cube.obj")
+        with open(self.path("set.jsonl"), encoding="utf-8") as file:
+            lines = [json.loads(line) for line in file]
+        first, last = lines[0], lines[-1]
+        between = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start=first, goal=last, reserve="none")
+        self.assertEqual([step["kind"] for step in between.data["steps"]], ["move"])
+        np.testing.assert_allclose(between.data["hand"]["initial"]["joints"], plan.data["hand"]["initial"]["joints"],
+                                   atol=1e-6)
+        np.testing.assert_allclose(between.data["hand"]["goal"]["position"], plan.data["hand"]["goal"]["position"],
+                                   atol=1e-9)
+        shifted = {**first, "palm": {**first["palm"], "position": [0.5, 0, 0]}}
+        for arguments, words in (({"start": shifted, "goal": last}, "start: expected at least 3 fingertips"),
+                                 ({"start": first, "goal": {**last, "id": ""}}, "goal: /id"),
+                                 ({"start": first, "start_pose": [0, 0, 0.1, 1, 0, 0, 0], "turn": ("z", 9)}, "start_pose"),
+                                 ({"goal": last, "turn": ("z", 9)}, "goal: a hand grasp states the pose")):
+            with self.assertRaisesRegex(regrasp.InputError, words):
+                regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, **arguments)
 
     def test_goals_are_marked_in_the_plan_and_in_the_report(self):
         goals = [{"name": name, "facing": {"axis": axis, "direction": "up", "tolerance_deg": 30}}

@@ -250,6 +250,25 @@ TEST(FindGaitTest, StartsWithTheRequiredFingers) {
   EXPECT_THROW((void)FindGait(request), std::invalid_argument);
 }
 
+TEST(FindGaitTest, EndsWithTheRequiredFingers) {
+  GaitRequest request = RequestFor("cube", 0.8, 0);
+  const GaitResult first = FindGait(request);
+  ASSERT_TRUE(first.gait) << first.message;
+  request.start_pose = first.gait->start.pose;
+  request.turn = {};
+  request.goal.emplace(first.gait->start.pose);
+  request.goal_grasp = FirstGrasp(first);
+  for (FingerIndex finger{0}; finger < std::ssize(first.gait->initial); ++finger) {
+    if (first.gait->initial[finger] != kNone) request.goal_fingers.push_back(finger);
+  }
+  EXPECT_TRUE(FindGait(request).gait);
+  // With swapped fingers none reaches its contact.
+  std::swap(request.goal_fingers[0], request.goal_fingers[1]);
+  EXPECT_FALSE(FindGait(request).gait);
+  request.goal_fingers.pop_back();
+  EXPECT_THROW((void)FindGait(request), std::invalid_argument);
+}
+
 TEST(FindGaitTest, HoldingFingersSlideAlongTheSurface) {
   int slides = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
