@@ -276,7 +276,7 @@ class Validate(ProgramCase):
         self.assertEqual(report["settings"]["squeeze_source"], "hand")
         self.assertLess(weight, report["settings"]["squeeze_N"])
         self.assertLess(report["settings"]["squeeze_N"], 50 * weight)
-        self.assertIn("times the force that supports the weight", done.stdout)
+        self.assertIn("2 × what the weight requires", done.stdout)
         report = self.assert_passes("--frames", "none")[1]
         self.assertEqual(report["settings"]["squeeze_source"], "shake")
         self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
