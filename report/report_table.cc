@@ -22,24 +22,17 @@ namespace regrasp::report {
 std::string GraspForceText(const sim::ReplaySettings& settings) {
   const double weight = settings.mass_kg * sim::kGravity;
   const std::string grasp_force = FormatShort(settings.grasp_force_N) + " N, " +
-                                  FormatShort(settings.grasp_force_N / weight) +
-                                  " times the weight";
+                                  FormatShort(settings.grasp_force_N / weight) + " × weight";
   switch (settings.grasp_force_source) {
     case sim::GraspForceSource::kDisturbance:
-      return grasp_force +
-             (settings.disturbance_ratio >= sim::kLeastDisturbanceForGraspForce
-                  ? ": default, the weight is 10 % of the disturbance"
-                  : ": default, the weight is negligible") +
-             "; not realistic for a hand, use --grasp-force realistic";
+      return grasp_force + "; see --grasp-force realistic";
     case sim::GraspForceSource::kHand:
       if (settings.grasp_force_N >= sim::kStrongestGrip_N) {
-        return grasp_force + ": largest grasp force of a hand, less than required here";
+        return grasp_force + ": largest grasp force of a hand";
       }
-      return grasp_force + ": " + FormatShort(sim::kGripSafety) +
-             " times the force that supports the weight in the weakest grasp";
+      return grasp_force + ": " + FormatShort(sim::kGripSafety) + " × what the weight requires";
     case sim::GraspForceSource::kTorques:
-      return grasp_force +
-             " in the strongest grasp: as torques and stability allow, at most 9 weights or 5 N";
+      return grasp_force + ": limited by torques and stability";
     case sim::GraspForceSource::kGiven:
       return grasp_force + ": given by --grasp-force";
   }

@@ -12,7 +12,7 @@
 
 namespace regrasp::report {
 
-/// Return the grasp force and its reason: "2119 N, 1000 times the weight: …".
+/// Return the grasp force and its reason in at most 60 characters: "200 N, 9 × weight: …".
 [[nodiscard]] std::string GraspForceText(const sim::ReplaySettings& settings);
 /// Return what the controller of a hand measures of the object's pose, and with which errors.
 [[nodiscard]] std::string FeedbackText(const sim::HandSensing& sensing);

@@ -19,6 +19,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "render/figures/panel_sheet.h"
+#include "render/figures/svg_path.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/caption.h"
 #include "render/picture/image.h"
@@ -125,7 +126,10 @@ std::string FigurePage::Finish() {
     cairo_surface_finish(surface_.get());
     Require(cairo_surface_status(surface_.get()));
   }
-  if (format_ == FigureFormat::kSvg) RemoveSurfaceName(*bytes_);
+  if (format_ == FigureFormat::kSvg) {
+    RemoveSurfaceName(*bytes_);
+    *bytes_ = ShortenPaths(*bytes_);
+  }
   MarkFigure(format_, *bytes_);
   return std::move(*bytes_);
 }

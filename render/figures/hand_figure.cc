@@ -1,5 +1,6 @@
 #include "render/figures/hand_figure.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,6 +50,9 @@ constexpr double kShortestOutline = 60;
 constexpr double kShortestCrease = 60;
 constexpr double kShortestHidden = 120;
 constexpr double kSmallestArea = 12;
+/// Tolerance of printed lines, and length of the shortest inner line, points.
+constexpr double kPrintTolerance = 0.15;
+constexpr double kShortestInPrint = 2;
 
 // Colours of the hand, and share of the finger's colour in a fingertip in contact.
 constexpr Color kHandFill = {237, 233, 226};
@@ -155,6 +159,20 @@ std::vector<Polyline> Scaled(std::vector<Polyline> lines, double scale) {
   return lines;
 }
 
+/// Scale lines to points, and omit details that are invisible at this size: points of lines, and
+/// lines that are shorter than `shortest` points.
+std::vector<Polyline> ForPrint(const std::vector<Polyline>& lines, double scale,
+                               double shortest = 0) {
+  std::vector<Polyline> printed;
+  for (const Polyline& line : Scaled(lines, scale)) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& p : line) box.extend(p);
+    if (box.isEmpty() || box.sizes().maxCoeff() < shortest) continue;
+    printed.push_back(Simplified(line, kPrintTolerance));
+  }
+  return printed;
+}
+
 }  // namespace
 
 /// Lines and areas in pixels of the camera.
@@ -166,7 +184,7 @@ struct HandPanels::Drawing {
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
     for (const auto& [color, areas] : fills) {
       cairo_new_path(cr);
-      for (const Polyline& area : Scaled(areas, scale)) AddOutline(cr, area);
+      for (const Polyline& area : ForPrint(areas, scale)) AddOutline(cr, area);
       render::Fill(cr, color, kHandFillOpacity);
     }
   }
@@ -174,13 +192,13 @@ struct HandPanels::Drawing {
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     SetColor(cr, kHiddenHandLine);
     cairo_set_dash(cr, &kHiddenHandDash, 1, 0);
-    StrokeLines(cr, Scaled(hidden, scale), kHiddenHandOutline);
+    StrokeLines(cr, ForPrint(hidden, scale, kShortestInPrint), kHiddenHandOutline);
     cairo_set_dash(cr, nullptr, 0, 0);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     SetColor(cr, kHandCrease);
-    StrokeLines(cr, Scaled(creases, scale), kHandCreaseWidth);
+    StrokeLines(cr, ForPrint(creases, scale, kShortestInPrint), kHandCreaseWidth);
     SetColor(cr, kHandLine);
-    StrokeLines(cr, Scaled(outlines, scale), kHandOutline);
+    StrokeLines(cr, ForPrint(outlines, scale), kHandOutline);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
   }
 };

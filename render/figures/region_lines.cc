@@ -27,12 +27,13 @@ Vector2i Next(const Vector2i& node, int direction) {
 }
 
 /// Keep the points in [first, last] that a simplified line needs (Douglas and Peucker 1973).
-void Simplify(const Polyline& line, std::size_t first, std::size_t last, std::vector<bool>& kept) {
+void Simplify(const Polyline& line, std::size_t first, std::size_t last, double tolerance,
+              std::vector<bool>& kept) {
   std::vector<std::pair<std::size_t, std::size_t>> open = {{first, last}};
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();
-    double most = kLineTolerance;
+    double most = tolerance;
     std::size_t farthest = from;
     for (std::size_t i = from + 1; i < to; ++i) {
       const double distance = DistanceToSegment(line[i], line[from], line[to]);
@@ -47,7 +48,9 @@ void Simplify(const Polyline& line, std::size_t first, std::size_t last, std::ve
   }
 }
 
-Polyline Simplified(const Polyline& line) {
+}  // namespace
+
+Polyline Simplified(const Polyline& line, double tolerance) {
   const std::size_t last = line.size() - 1;
   std::vector<bool> kept(line.size(), false);
   kept.front() = kept.back() = true;
@@ -59,14 +62,16 @@ Polyline Simplified(const Polyline& line) {
     middle = farthest - line.begin();
     kept[middle] = true;
   }
-  Simplify(line, 0, middle, kept);
-  Simplify(line, middle, last, kept);
+  Simplify(line, 0, middle, tolerance, kept);
+  Simplify(line, middle, last, tolerance, kept);
   Polyline simple;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (kept[i]) simple.push_back(line[i]);
   }
   return simple;
 }
+
+namespace {
 
 /// Return a line through the middles of a chain's sides. An open one keeps its ends.
 Polyline ThroughMiddles(const std::vector<Vector2i>& nodes) {

@@ -56,6 +56,9 @@ class SampleSides {
 /// Tolerance of simplified lines, samples.
 inline constexpr double kLineTolerance = 1;
 
+/// Return the line with the fewest points within a tolerance (Douglas and Peucker 1973).
+[[nodiscard]] Polyline Simplified(const Polyline& line, double tolerance = kLineTolerance);
+
 /// Return the outlines of the samples that a predicate selects, as closed and simplified lines.
 /// Filled with the even-odd rule they cover these samples, except that ragged borders are smoothed.
 /// @param smallest  outlines of parts and holes whose width and height are smaller are omitted,

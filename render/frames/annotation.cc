@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -181,23 +180,6 @@ void Writer::DrawNumbers(std::span<const FingerGlyph> fingers, std::span<const s
   }
 }
 
-/// Break a text at spaces into lines of at most `most` in the current font, unless a word is
-/// longer.
-std::vector<std::string> BreakLines(cairo_t* cr, const std::string& text, double most) {
-  std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    std::string& line = lines.back();
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (line.empty() || TextWidth(cr, longer) <= most) {
-      line = longer;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
-}
-
 std::vector<Obstacle> Writer::DrawCaption(const std::string& caption) const {
   if (caption.empty()) return {};
   constexpr double kSmaller = 0.95;
@@ -335,6 +317,8 @@ constexpr double kArrow = 0.22;
 constexpr double kInsetRim = 0.09;
 constexpr double kText = 0.8;
 
+/// Limits of the magnification: below, the inset shows no more than the frame.
+constexpr double kLeastMagnified = 2;
 constexpr double kMostMagnified = 200;
 constexpr double kPale = 0.35;
 constexpr double kWeight = 3;  ///< weight of an inset as an obstacle
@@ -367,7 +351,7 @@ std::vector<AlignInset> PlaceInsets(const Camera& camera, std::span<const Finger
     if (!FirstLeg(glyph) || !(length < 2 * glyph.fingertip_radius)) continue;
     const double pixels = length * camera.PixelsPerUnit(glyph.contact);
     const double magnification = kTravel * style.font / pixels;
-    if (magnification > kMostMagnified) continue;
+    if (magnification < kLeastMagnified || magnification > kMostMagnified) continue;
     const Vector2d fingertip = camera.Project(glyph.fingertip);
     AlignInset& inset = insets.emplace_back();
     inset.glyph = glyph;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -227,7 +226,7 @@ class Overlay {
     const double margin = kFaultMargin * font_;
     SelectFont(cr_, font_, /*bold=*/true);
     base_ = margin;
-    for (const std::string& line : Wrap(text, camera_.width - 2 * margin)) {
+    for (const std::string& line : BreakLines(cr_, text, camera_.width - 2 * margin)) {
       base_ += 0.8 * font_;
       Text({margin, base_}, line);
       base_ += 0.5 * font_;
@@ -293,21 +292,6 @@ class Overlay {
       std::ranges::rotate(rim, rim.begin() + kRimPoints / kStarts);
     }
     return best;
-  }
-
-  /// Break a text into lines of at most `width`, unless a word is longer.
-  [[nodiscard]] std::vector<std::string> Wrap(const std::string& text, double width) const {
-    std::vector<std::string> lines = {""};
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-      const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-      if (!lines.back().empty() && TextWidth(cr_, longer) > width) {
-        lines.push_back(word);
-      } else {
-        lines.back() = longer;
-      }
-    }
-    return lines;
   }
 
   [[nodiscard]] Vector2d Project(const Vector3d& p_W) const {

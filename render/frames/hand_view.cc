@@ -34,6 +34,8 @@ constexpr double kWindow = 0.16;
 /// Hidden share of a finger above which its window is fully clear.
 constexpr double kMostHidden = 0.5;
 constexpr double kHandRaySkip = 1e-4;
+/// Length of a sum of unit normals, weighted by angles in radians, that counts as zero.
+constexpr double kLeastMean = 1e-3;
 
 Color Mixed(Color a, Color b, double share) {
   const auto mix = [share](int x, int y) {
@@ -89,9 +91,29 @@ void OrientOutward(ShadedMesh& mesh) {
   }
 }
 
+/// Offset a surface. Each corner moves along the mean normal of its triangles, weighted by their
+/// angles (Thürmer and Wüthrich 1998), so that the surface has no gaps at creases.
 void Grow(double by, ShadedMesh& mesh) {
+  std::map<std::array<double, 3>, Vector3d> sums;
+  for (const auto& corners : mesh.triangles) {
+    const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (across.isZero(0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
+      const double angle = std::atan2(u.cross(v).norm(), u.dot(v));
+      const Vector3d& p = corners[k];
+      const auto [sum, is_new] = sums.try_emplace({p.x(), p.y(), p.z()}, Vector3d::Zero());
+      sum->second += angle * across.normalized();
+    }
+  }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) mesh.triangles[i][k] += by * mesh.normals[i][k];
+    for (int k = 0; k < 3; ++k) {
+      Vector3d& p = mesh.triangles[i][k];
+      const auto sum = sums.find({p.x(), p.y(), p.z()});
+      // The mean of both sides of a sheet has no direction.
+      const bool has_mean = sum != sums.end() && sum->second.norm() > kLeastMean;
+      p += by * (has_mean ? Vector3d(sum->second.normalized()) : mesh.normals[i][k]);
+    }
   }
 }
 

@@ -1,10 +1,13 @@
 #include "render/picture/cairo_paint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 namespace regrasp::render {
@@ -130,6 +133,42 @@ double TextWidth(cairo_t* cr, const std::string& text) {
   cairo_text_extents_t extents;
   cairo_text_extents(cr, text.c_str(), &extents);
   return extents.x_advance;
+}
+
+namespace {
+
+/// Split a text at spaces, but not between a number and its unit.
+std::vector<std::string> SplitWords(const std::string& text) {
+  constexpr std::array<std::string_view, 9> kUnits = {"nm", "µm", "mm",  "cm", "m",
+                                                      "km", "N",  "N·m", "%"};
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) {
+    const std::string bare = word.substr(0, word.find_first_of(",;:."));
+    const bool is_unit = std::ranges::find(kUnits, bare) != kUnits.end();
+    if (is_unit && !words.empty() && words.back().back() >= '0' && words.back().back() <= '9') {
+      words.back() += " " + word;
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> BreakLines(cairo_t* cr, const std::string& text, double most) {
+  std::vector<std::string> lines(1);
+  for (const std::string& word : SplitWords(text)) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || TextWidth(cr, longer) <= most) {
+      line = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
 }
 
 Vector2d CentredText(cairo_t* cr, const std::string& text, const Vector2d& centre) {

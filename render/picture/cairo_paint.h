@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "render/picture/image.h"
 
@@ -54,6 +55,10 @@ void DrawHatch(cairo_t* cr, const Eigen::Vector2d& corner, const Eigen::Vector2d
 void SelectFont(cairo_t* cr, double size, bool bold, const char* family = "sans-serif");
 /// Return the advance width of a text in the current font.
 [[nodiscard]] double TextWidth(cairo_t* cr, const std::string& text);
+/// Break a text at spaces into lines of at most `most` in the current font, unless a word is
+/// longer. A number and its unit are one word.
+[[nodiscard]] std::vector<std::string> BreakLines(cairo_t* cr, const std::string& text,
+                                                  double most);
 /// Return the position at which a text must start so that its ink is centred.
 [[nodiscard]] Eigen::Vector2d CentredText(cairo_t* cr, const std::string& text,
                                           const Eigen::Vector2d& centre);

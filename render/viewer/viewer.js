@@ -7,6 +7,7 @@ var RegraspScene = (function () {
   var HIDDEN = 0, HOLDING = 2;  // states of a finger; 1 is free
   var NUMBERS_PER_FINGER = 10;
   var HAND_COLOR = 0xd8cfc2, FAULT_RED = 0xd61020;
+  var CELLS_PER_REACH = 25;     // cells of coarse surfaces per radius of the visible scene
   var FIRST_JOINT = 8;          // columns before: time, position and quaternion of the object
 
   function bytesOf(base64) {
@@ -48,6 +49,28 @@ var RegraspScene = (function () {
         json.wide ? new Uint32Array(indices) : new Uint16Array(indices), 1));
     geometry.computeBoundingSphere();
     return geometry;
+  }
+
+  // Returns the triangles of a coarser surface with the same vertices. In each cell of a grid, one vertex per main
+  // direction of normals remains. Triangles within two cells disappear.
+  function coarseIndex(geometry, cell) {
+    var points = geometry.attributes.position.array, normals = geometry.attributes.normal.array;
+    var fine = geometry.index.array, cells = {}, vertices = {}, cellOf = [], vertexOf = [], coarse = [];
+    for (var i = 0, vertex = 0; i < points.length; i += 3, ++vertex) {
+      var key = Math.floor(points[i] / cell) + ' ' + Math.floor(points[i + 1] / cell) + ' ' + Math.floor(points[i + 2] / cell);
+      if (!(key in cells)) cells[key] = vertex;
+      var main = 0;
+      for (var k = 1; k < 3; ++k) if (Math.abs(normals[i + k]) > Math.abs(normals[i + main])) main = k;
+      key += ' ' + main + (normals[i + main] < 0);
+      if (!(key in vertices)) vertices[key] = vertex;
+      cellOf.push(cells[key.slice(0, key.lastIndexOf(' '))]);
+      vertexOf.push(vertices[key]);
+    }
+    for (i = 0; i < fine.length; i += 3) {
+      var a = cellOf[fine[i]], b = cellOf[fine[i + 1]], c = cellOf[fine[i + 2]];
+      if (a !== b && b !== c && c !== a) coarse.push(vertexOf[fine[i]], vertexOf[fine[i + 1]], vertexOf[fine[i + 2]]);
+    }
+    return new THREE.BufferAttribute(new Uint32Array(coarse), 1);
   }
 
   function linesOf(points, material) {
@@ -386,6 +409,16 @@ var RegraspScene = (function () {
     if (this.data.planar || Math.abs(this.toEye.z) > 0.999) this.toEye.set(0, -0.001, 1).normalize();
   };
 
+  // Draws coarse copies of object and links, which are nearly the same at the size of the canvas, or the full meshes.
+  Scene.prototype.setCoarse = function (coarse) {
+    this.links.concat(this.mesh).forEach(function (mesh) {
+      var geometry = mesh.geometry;
+      geometry.fine = geometry.fine || geometry.index;
+      if (coarse) geometry.coarse = geometry.coarse || coarseIndex(geometry, this.reach / CELLS_PER_REACH);
+      geometry.setIndex(coarse ? geometry.coarse : geometry.fine);
+    }, this);
+  };
+
   // Poses everything at a time. Returns the fingers as they are then.
   Scene.prototype.show = function (time, options) {
     var scene = this, replay = this.replay, data = this.data;
@@ -400,7 +433,6 @@ var RegraspScene = (function () {
     this.surface.transparent = options.xray;
     this.surface.opacity = options.xray ? 0.38 : 1;
     this.surface.depthWrite = !options.xray;
-    this.surface.needsUpdate = true;
     this.ghost.visible = options.ghost;
     this.paths.visible = options.path;
     this.axes.visible = options.axes;

@@ -6,6 +6,8 @@
 
   var SPEEDS = [0.25, 0.5, 1, 2, 4];
   var MOST_BUTTONS = 40;
+  // The level of detail falls after three frames that are slower than this. The least one draws fewer pixels per CSS pixel.
+  var SLOW_MS = 45, SLOW_FRAMES = 3, LEAST_DETAIL = 2, FEWER_PIXELS = 0.5;
   var SWITCHES = [['forces', 'Forces', true], ['cones', 'Friction cones', true], ['axes', 'Axes', true],
                   ['names', 'Names', true], ['xray', 'X-ray', false], ['ghost', 'Start pose', false],
                   ['path', 'Path', false], ['palm', 'Palm axes', false]];
@@ -53,7 +55,10 @@
     return element;
   }
 
-  function degrees(radians) { return (radians * 180 / Math.PI).toFixed(1) + '\u00b0'; }
+  function degrees(radians) {
+    var text = (radians * 180 / Math.PI).toFixed(1);
+    return (Number(text) === 0 ? '0.0' : text.replace('-', '\u2212')) + '\u00b0';
+  }
 
   function forceText(newtons) {
     if (newtons === 0) return '0 N';
@@ -78,12 +83,15 @@
     this.time = 0;
     this.speed = 1;
     this.playing = false;
+    this.slow = 0;   // number of successive slow frames
+    this.level = 0;  // of detail, setLevel
     this.runs = 0;  // number of times that the replay was started
     this.options = {};
     this.steps = data.steps;
     this.build();
     this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, antialias: true, alpha: true});
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+    this.pixelRatio = Math.min(2, window.devicePixelRatio || 1);
+    this.renderer.setPixelRatio(this.pixelRatio);
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.01 * this.scene.reach, 100 * this.scene.reach);
     this.camera.up.set(0, 0, 1);
     if (data.planar) this.camera.up.set(0, 1, 0);
@@ -281,6 +289,7 @@
     requestAnimationFrame(function advance(now) {
       if (!viewer.playing || run !== viewer.runs) return;
       var seconds = last === null ? 0 : Math.min(0.1, (now - last) / 1000);
+      if (last !== null) viewer.adapt(now - last);
       last = now;
       viewer.setTime(viewer.time + viewer.speed * seconds);
       if (viewer.time >= viewer.end) viewer.pause();
@@ -291,6 +300,23 @@
   Viewer.prototype.pause = function () {
     this.playing = false;
     setIcon(this.playButton, ICONS.play);
+    if (this.level > 0) this.setLevel(0);
+  };
+
+  // Reduces the level of detail after a few slow frames.
+  Viewer.prototype.adapt = function (interval_ms) {
+    this.slow = interval_ms > SLOW_MS ? this.slow + 1 : 0;
+    if (this.slow < SLOW_FRAMES || this.level === LEAST_DETAIL) return;
+    this.slow = 0;
+    this.setLevel(this.level + 1);
+  };
+
+  // Sets the level of detail: 0 is the full one, 1 has coarse meshes, 2 also fewer pixels.
+  Viewer.prototype.setLevel = function (level) {
+    this.level = level;
+    this.scene.setCoarse(level > 0);
+    this.renderer.setPixelRatio(level === LEAST_DETAIL ? FEWER_PIXELS : this.pixelRatio);
+    this.resize();
   };
 
   Viewer.prototype.changeSpeed = function () {
@@ -339,7 +365,7 @@
   };
 
   Viewer.prototype.showText = function (fingers) {
-    var viewer = this, replay = this.scene.replay, index = this.stepNow(), step = this.steps[index];
+    var replay = this.scene.replay, index = this.stepNow(), step = this.steps[index];
     var last = this.steps[this.steps.length - 1].number;
     var failed = !!this.data.failure && this.time >= this.end - 1e-6;
     this.stepLine.textContent = (step.number === 0 ? '' : 'Step ' + step.number + ' of ' + last + ' \u00b7 ') + step.title;
@@ -351,10 +377,11 @@
     this.element.setAttribute('data-time', this.time.toFixed(3));
     this.element.setAttribute('data-step', step.number);
     this.stepButtons.forEach(function (one, i) { one.classList.toggle('now', i === index); });
+    // A step that fails the analytic check is not replayed, and has no forces.
+    var known = fingers.some(function (finger) { return finger.state === 2 && finger.force > 0; });
     this.rows.forEach(function (row, i) {
       var now = fingers[i], holds = now.state === 2;
       row.row.className = holds ? '' : 'free';
-      var known = viewer.scene.largestForce > 0;
       row.force.textContent = !holds ? 'not in contact' : known ? forceText(now.force) : 'not replayed';
       row.margin.textContent = holds && now.margin !== null ? degrees(now.margin) : '\u2013';
     });
@@ -376,17 +403,23 @@
         if (Math.abs(other.x - x) < 60 && Math.abs(other.y - y) < 18) y = other.y + 18;
       });
       placed.push({x: x, y: y});
+      var half = element.offsetWidth / 2;
+      x = Math.max(half, Math.min(width - half, x));
       element.style.transform = 'translate(' + x.toFixed(1) + 'px,' + y.toFixed(1) + 'px) translate(-50%,-50%)';
     });
   };
 
   // ---- Start.
 
-  // The image that replaces a viewer joins the other frames.
+  // The image that replaces a viewer joins the other frames. Its place remains in print.
   function moveStillPicture() {
     var still = document.querySelector('.still figure, .failure figure'), frames = document.querySelector('.frames');
     if (!still || !frames) return;
-    frames.insertBefore(still, frames.firstChild);
+    var copy = still.cloneNode(true);
+    still.removeAttribute('id');
+    still.parentNode.classList.add('printed');
+    copy.classList.add('screen');
+    frames.insertBefore(copy, frames.firstChild);
   }
 
   var element = document.getElementById('viewer');

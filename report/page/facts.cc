@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,10 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
                              FormatDegrees(measures[weakest].margin_deg.value_or(0)) + " margin");
   }
   if (report.trials) AddTrials(*report.trials, facts);
+  return facts.Make();
+}
+
+Element MakeSettings(const Report& report) {
   FactList settings;
   if (report.settings) AddSettings(*report.settings, settings);
   if (report.run && !report.run->program.empty()) {
@@ -94,14 +99,12 @@ Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measure
   }
   settings.Add("Object, SHA-256", report.object_sha256, kLong);
   settings.Add(report.grasp ? "Grasp, SHA-256" : "Plan, SHA-256", report.plan_sha256, kLong);
-  const Element folded("details", {}, Element("summary", {}, "Settings and digests"),
-                       settings.Make());
-  return Element("section", {}, std::vector<Element>{facts.Make(), folded});
+  return Element("details", {}, Element("summary", {}, "Settings and digests"), settings.Make());
 }
 
 namespace {
 
-constexpr char kNoFinding[] = "–";
+const std::string kNoFinding = "–";
 
 /// Return the steps that were replayed.
 std::vector<const ReportStep*> Replayed(const Report& report) {
@@ -128,7 +131,9 @@ std::string_view BetweenText(sim::Between between) {
   return "";
 }
 
-std::vector<Element> Disagreements(const Report& report) {
+}  // namespace
+
+std::vector<Element> MakeDisagreements(const Report& report) {
   std::vector<Element> items;
   for (const ReportStep& step : report.steps) {
     for (const auto& found : {step.disagreement, step.engines}) {
@@ -143,38 +148,63 @@ std::vector<Element> Disagreements(const Report& report) {
   return {Element("h2", {}, "Disagreements"), Element("ul", {}, items)};
 }
 
-std::string Margin(const sim::FingerMargins& margins) {
+namespace {
+
+/// Return the name of a finger, or "finger 2" if it has none.
+std::string FingerText(FingerIndex finger, FingerNames names) {
+  const std::string number = std::to_string(finger);
+  return finger < static_cast<int>(names.size()) ? names[finger] : "finger " + number;
+}
+
+std::string Margin(const sim::FingerMargins& margins, FingerNames names) {
   const auto least = sim::SmallestMargin(margins);
   if (!least || !std::isfinite(*least)) return kNoFinding;
-  return FormatDegrees(Degrees(*least)) + " (finger " +
-         std::to_string(sim::FingerOfSmallestMargin(margins)) + ")";
+  return FormatDegrees(Degrees(*least)) + " (" +
+         FingerText(sim::FingerOfSmallestMargin(margins), names) + ")";
 }
 
-Element RequirementsRow(const ReportStep& step, bool both) {
-  const std::optional<sim::NeedOfFinger>& need = step.weakest_finger;
-  Element row("tr");
-  row.Add(NumberCell(std::to_string(step.check.index)));
-  row.Add(NumberCell(need ? std::to_string(need->finger) : kNoFinding));
-  row.Add(NumberCell(need ? FormatRequiredDegrees(Degrees(need->friction.required)) + "°"
-                          : kNoFinding));
-  row.Add(NumberCell(Margin(step.replay->static_margins)));
-  row.Add(NumberCell(Margin(step.replay->disturbance_margins)));
-  if (both)
-    row.Add(NumberCell(step.replay->fixed ? ReasonText(step.replay->fixed->reason) : kNoFinding));
-  return row;
+/// A column of the table of required friction and force margins.
+struct FindingColumn {
+  std::string_view head;
+  std::function<std::string(const ReportStep&)> text;
+};
+
+std::vector<FindingColumn> FindingColumns(FingerNames names) {
+  return {
+      {"Step", [](const ReportStep& step) { return std::to_string(step.check.index); }},
+      {"Weakest finger",
+       [names](const ReportStep& step) {
+         return step.weakest_finger ? FingerText(step.weakest_finger->finger, names) : kNoFinding;
+       }},
+      {"Required alone",
+       [](const ReportStep& step) {
+         const auto& need = step.weakest_finger;
+         return need ? FormatRequiredDegrees(Degrees(need->friction.required)) + "°" : kNoFinding;
+       }},
+      {"Least force margin, static grasp",
+       [names](const ReportStep& step) { return Margin(step.replay->static_margins, names); }},
+      {"Least force margin, disturbances",
+       [names](const ReportStep& step) { return Margin(step.replay->disturbance_margins, names); }},
+      {"Fixed grasp force", [](const ReportStep& step) {
+         const sim::StepReplay& replay = *step.replay;
+         return replay.adapted && replay.fixed ? ReasonText(replay.fixed->reason) : kNoFinding;
+       }}};
 }
 
-std::vector<Element> WhatItTakes(const Report& report) {
+/// Columns without a value are omitted.
+std::vector<Element> WhatItTakes(const Report& report, FingerNames names) {
   const auto steps = Replayed(report);
   if (steps.empty()) return {};
-  const bool both = std::ranges::any_of(
-      steps, [](const ReportStep* step) { return step->replay->adapted && step->replay->fixed; });
-  std::vector<Element> head =
-      HeadCells({"Step", "Weakest finger", "Required alone", "Least force margin, static grasp",
-                 "Least force margin, disturbances"});
-  std::vector<Element> rows;
-  if (both) head.push_back(HeadCell("Fixed grasp force"));
-  for (const ReportStep* step : steps) rows.push_back(RequirementsRow(*step, both));
+  std::vector<Element> head;
+  std::vector<Element> rows(steps.size(), Element("tr"));
+  for (const FindingColumn& column : FindingColumns(names)) {
+    std::vector<std::string> texts;
+    for (const ReportStep* step : steps) texts.push_back(column.text(*step));
+    if (std::ranges::count(texts, kNoFinding) == std::ssize(texts)) continue;
+    head.push_back(HeadCell(column.head));
+    for (std::size_t i = 0; i < texts.size(); ++i) rows[i].Add(NumberCell(texts[i]));
+  }
+  if (head.size() == 1) return {};
   return {
       Element("h2", {}, "Required friction and force margins"), ScrolledTable(head, rows),
       Note("Weakest finger: the finger whose friction angle can decrease least while all others "
@@ -231,8 +261,8 @@ std::vector<Element> ResistedWrenches(const Report& report) {
   return found;
 }
 
-Element LimitsRow(const sim::DriveLimits& limit) {
-  Element row("tr", {}, NumberCell(std::to_string(limit.finger)));
+Element LimitsRow(const sim::DriveLimits& limit, FingerNames names) {
+  Element row("tr", {}, Element("td", {}, FingerText(limit.finger, names)));
   row.Add(Element("td", {}, limit.joint));
   row.Add(Element("td", {}, limit.actuator));
   row.Add(NumberCell(std::isfinite(limit.torque_Nm) ? NumberText(limit.torque_Nm) : "unknown"));
@@ -245,25 +275,28 @@ Element LimitsRow(const sim::DriveLimits& limit) {
 }
 
 /// Return the limits that a replay by a hand assumes.
-std::vector<Element> Limits(const Report& report) {
+std::vector<Element> Limits(const Report& report, FingerNames names) {
   if (!report.settings || !report.settings->hand) return {};
   const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;
   if (limits.empty()) return {};
   std::vector<Element> rows;
-  for (const sim::DriveLimits& limit : limits) rows.push_back(LimitsRow(limit));
-  return {Element("h2", {}, "Limits that the verdict relies on"),
-          ScrolledTable(HeadCells({"Finger", "Joint", "Actuator", "Torque, N·m", "Control range",
-                                   "Joint range"}),
-                        rows),
+  for (const sim::DriveLimits& limit : limits) rows.push_back(LimitsRow(limit, names));
+  std::vector<Element> head;
+  for (const char* name : {"Finger", "Joint", "Actuator"}) head.push_back(HeadCell(name, ""));
+  for (const char* name : {"Torque, N·m", "Control range", "Joint range"}) {
+    head.push_back(HeadCell(name));
+  }
+  return {Element("h2", {}, "Limits that the verdict relies on"), ScrolledTable(head, rows),
           Note("As the hand's model gives them. If it gives no force limit, the replay takes the "
                "actuator's strength as unlimited. A control is kept in its range.")};
 }
 
 }  // namespace
 
-std::vector<Element> MakeFindings(const Report& report) {
-  std::vector<Element> findings = Disagreements(report);
-  for (const auto& part : {WhatItTakes(report), ResistedWrenches(report), Limits(report)}) {
+std::vector<Element> MakeFindings(const Report& report, FingerNames names) {
+  std::vector<Element> findings;
+  for (const auto& part :
+       {WhatItTakes(report, names), ResistedWrenches(report), Limits(report, names)}) {
     findings.insert(findings.end(), part.begin(), part.end());
   }
   return findings;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,17 +25,26 @@ class FactList {
   std::vector<Element> facts_;
 };
 
-/// Return the settings and inputs of a validation as names and values.
-/// They are files with digests, friction, the weakest step or finger, trials, and the settings of
-/// the replay if there was one.
+/// Return object, planner, friction, the weakest step or finger, and trials as names and values.
 /// @param measures  measures of each entry (MeasureSteps).
 [[nodiscard]] Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measures);
 
-/// Return the section of report.html with the findings, as elements; empty without findings.
-/// The section lists disagreements between analysis, replay and fixed grasp force with their likely
-/// cause. One line per step has the required friction, the weakest finger and the force margins. If
+/// Return a collapsed section with the settings of the replay, if there was one, the program and
+/// its command, and the digests of the files.
+[[nodiscard]] Element MakeSettings(const Report& report);
+
+/// Return the section on disagreements between analysis, replays and engines, each with its likely
+/// cause; empty without disagreements.
+[[nodiscard]] std::vector<Element> MakeDisagreements(const Report& report);
+
+/// Names of fingers by index; other fingers have their number.
+using FingerNames = std::span<const std::string>;
+
+/// Return the sections of report.html with the findings, as elements; empty without findings.
+/// One line per step has the required friction, the weakest finger and the force margins. If
 /// the report has resisted wrenches, they follow as a table and, for a plan with steps, as a plot.
-[[nodiscard]] std::vector<Element> MakeFindings(const Report& report);
+/// The last section has the limits that a replay by a hand assumes.
+[[nodiscard]] std::vector<Element> MakeFindings(const Report& report, FingerNames names = {});
 
 /// Return the section on the conditions of a report: a bar chart with one bar per condition, and a
 /// table. The length of a bar is the tolerance margin. Empty without conditions.

@@ -60,8 +60,8 @@ class Page {
          {Links(), Parts{Header()}, ViewerParts(viewer_), StillFrame(),
           MakeStepTable(report_, plan_, measures_, Anchors(), finger_names_), Plots(),
           Parts{MakeFacts(report_, measures_)}, MakeFingerTable(report_), MakeGoalSection(report_),
-          MakeFindings(report_), MakeEngineSection(report_), MakeConditionSection(report_),
-          Replay(), Frames()}) {
+          MakeDisagreements(report_), MakeEngineSection(report_), MakeConditionSection(report_),
+          Replay(), Frames(), MakeFindings(report_, finger_names_), Parts{MakeSettings(report_)}}) {
       all.insert(all.end(), parts.begin(), parts.end());
     }
     return FormatPage(all);
@@ -113,13 +113,13 @@ class Page {
                                   std::to_string(trials.options.count) + " trials";
   }
 
-  /// Return the verdict in words.
+  /// Return the verdict in words, with a line for each of fault, cause and remedy.
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
     const auto failure = DescribeFailure(report_);
     if (!failure) return StepsStatement();
     return Capitalized(failure->what) + "." + CauseAndFix(failure->why, failure->suggested_fix) +
-           " In the nominal replay: " + StepsStatement();
+           "\nIn the nominal replay: " + StepsStatement();
   }
 
   [[nodiscard]] std::string StepsStatement() const {
@@ -146,13 +146,12 @@ class Page {
     }
     text = Capitalized(text + failure.reason + ".");
     if (!failure.what.empty()) text += " " + Capitalized(failure.what) + ".";
-    text += CauseAndFix(failure.why, failure.suggested_fix) +
-            " For all causes and remedies, run regrasp validate --explain " + failure.reason + ".";
     const bool replayed = report_.steps[*failed_].replay.has_value();
     text +=
         replayed ? " The replay found it." : " The analytic check found it; it was not replayed.";
     if (*failed_ + 1 < static_cast<int>(report_.steps.size())) text += " Later steps were skipped.";
-    return text;
+    return text + CauseAndFix(failure.why, failure.suggested_fix) +
+           "\nFor all causes and remedies, run regrasp validate --explain " + failure.reason + ".";
   }
 
   [[nodiscard]] double Tolerance() const {

@@ -23,8 +23,11 @@ std::vector<Element> HeadCells(const std::vector<std::string_view>& names) {
 
 Element NumberCell(std::string_view text) { return Element("td", {{"class", "number"}}, text); }
 
-Element ScrolledTable(const std::vector<Element>& head, const std::vector<Element>& rows) {
-  const Element table("table", {}, Element("thead", {}, Element("tr", {}, head)),
+Element ScrolledTable(const std::vector<Element>& head, const std::vector<Element>& rows,
+                      std::string_view style) {
+  const Attributes attributes =
+      style.empty() ? Attributes() : Attributes{{"class", std::string(style)}};
+  const Element table("table", attributes, Element("thead", {}, Element("tr", {}, head)),
                       Element("tbody", {}, rows));
   return Element("div", {{"class", "scroll"}}, table);
 }
@@ -119,8 +122,8 @@ std::string StepName(plan::EntryIndex index) {
 }
 
 std::string CauseAndFix(const std::string& why, const std::string& suggested_fix) {
-  return (why.empty() ? "" : " Why: " + why + ".") +
-         (suggested_fix.empty() ? "" : " Help: " + suggested_fix + ".");
+  return (why.empty() ? "" : "\nWhy: " + why + ".") +
+         (suggested_fix.empty() ? "" : "\nHelp: " + suggested_fix + ".");
 }
 
 std::string Capitalized(std::string text) {
@@ -132,16 +135,23 @@ namespace {
 
 constexpr char kNoStepValue[] = "–";
 
+// Names of columns.
+constexpr char kRequired[] = "Required friction";
+constexpr char kMargin[] = "Friction margin";
+constexpr char kDisplacement[] = "Displacement";
+constexpr char kRotation[] = "Rotation";
+constexpr char kSlip[] = "Slip";
+
 /// Motions below these lengths and angles are errors of the simulation.
 constexpr double kLeastMotion_m = 1e-6;
 constexpr double kLeastRotation_deg = 1e-3;
 
 std::string MotionText(double metres) {
-  return metres < kLeastMotion_m ? "< 1\u00a0µm" : LengthText(metres);
+  return metres < kLeastMotion_m ? "<\u00a01\u00a0µm" : LengthText(metres);
 }
 
 std::string RotationText(double degrees) {
-  return degrees < kLeastRotation_deg ? "< 0.001°" : NumberText(degrees) + "°";
+  return degrees < kLeastRotation_deg ? "<\u00a00.001°" : NumberText(degrees) + "°";
 }
 
 std::string DegreesOr(const std::optional<double>& radians, const char* otherwise) {
@@ -156,8 +166,9 @@ std::string Required(const plan::StepCheck& check) {
   return decided ? "none" : kNoStepValue;
 }
 
-Element MinorCell(std::string_view text) {
-  return Element("td", {{"class", "number minor"}}, text);
+/// Return a cell with the name of its column, which cards of narrow screens show.
+Element NamedCell(std::string_view name, std::string_view text) {
+  return Element("td", {{"class", "number"}, {"data-name", std::string(name)}}, text);
 }
 
 Element TitleCell(const std::string& title, const std::string& anchor) {
@@ -172,11 +183,11 @@ Element StepRow(const ReportStep& step, const std::string& title, const StepMeas
       "tr", {{"class", std::string(VerdictName(step.verdict()))}},
       NumberCell(std::to_string(step.check.index)),
       Element("td", {{"class", "outcome"}}, VerdictText(step)), TitleCell(title, anchor),
-      MinorCell(Required(step.check)),
-      NumberCell(measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNoStepValue),
-      NumberCell(replay ? MotionText(replay->displacement_m) : kNoStepValue),
-      MinorCell(replay ? RotationText(replay->rotation_deg) : kNoStepValue),
-      NumberCell(replay ? MotionText(replay->slip_m) : kNoStepValue));
+      NamedCell(kRequired, Required(step.check)),
+      NamedCell(kMargin, measures.margin_deg ? FormatDegrees(*measures.margin_deg) : kNoStepValue),
+      NamedCell(kDisplacement, replay ? MotionText(replay->displacement_m) : kNoStepValue),
+      NamedCell(kRotation, replay ? RotationText(replay->rotation_deg) : kNoStepValue),
+      NamedCell(kSlip, replay ? MotionText(replay->slip_m) : kNoStepValue));
 }
 
 }  // namespace
@@ -185,14 +196,9 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
                                    const std::vector<StepMeasures>& measures,
                                    const std::vector<std::string>& anchors,
                                    std::span<const std::string> finger_names) {
-  const std::vector<Element> head = {HeadCell("Step"),
-                                     HeadCell("Verdict", ""),
-                                     HeadCell("Description", ""),
-                                     HeadCell("Required friction", "number minor"),
-                                     HeadCell("Friction margin"),
-                                     HeadCell("Displacement"),
-                                     HeadCell("Rotation", "number minor"),
-                                     HeadCell("Slip")};
+  const std::vector<Element> head = {
+      HeadCell("Step"),  HeadCell("Verdict", ""), HeadCell("Description", ""), HeadCell(kRequired),
+      HeadCell(kMargin), HeadCell(kDisplacement), HeadCell(kRotation),         HeadCell(kSlip)};
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {
     const plan::EntryIndex index = step.check.index;
@@ -200,7 +206,7 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
         StepRow(step, StepTitle(plan, index, finger_names), measures[index], anchors[index]));
   }
   return {
-      ScrolledTable(head, rows),
+      ScrolledTable(head, rows, "cards"),
       Note("Required friction: the smallest friction angle at which every grasp of the step is "
            "force closure. Friction margin: the plan’s friction angle minus the required one. "
            "Displacement, rotation and slip: the largest values in the replay of the step and in "

@@ -14,7 +14,7 @@
 namespace regrasp::report {
 
 /// Return the head of a column.
-/// @param style  classes, "number" (aligned right) or "number minor"; may be empty.
+/// @param style  class, "number" (aligned right) or none.
 [[nodiscard]] Element HeadCell(std::string_view name, std::string_view style = "number");
 
 /// Return the heads of columns of numbers.
@@ -24,9 +24,10 @@ namespace regrasp::report {
 
 /// Return a table that scrolls by itself if it is wider than the page.
 /// @param head  cells of the first row.
-/// @param rows  elements tr.
+/// @param rows   elements tr.
+/// @param style  class of the table; may be empty. "cards": narrow screens show a card per row.
 [[nodiscard]] Element ScrolledTable(const std::vector<Element>& head,
-                                    const std::vector<Element>& rows);
+                                    const std::vector<Element>& rows, std::string_view style = "");
 
 /// Return an image with its caption, which starts with a name in bold.
 [[nodiscard]] Element Figure(const Attributes& attributes, const Element& picture,
@@ -64,7 +65,7 @@ struct StepMeasures {
 /// Return the name of an entry in a sentence: "the hold", "step 3".
 [[nodiscard]] std::string StepName(plan::EntryIndex index);
 
-/// Return the sentences on cause and remedy of a failure, each after a space; empty without them.
+/// Return the sentences on cause and remedy of a failure, each on a new line; empty without them.
 [[nodiscard]] std::string CauseAndFix(const std::string& why, const std::string& suggested_fix);
 
 /// Return the text with an upper-case first letter if that is an ASCII letter.

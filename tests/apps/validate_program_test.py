@@ -276,7 +276,7 @@ class Validate(ProgramCase):
         self.assertEqual(report["settings"]["squeeze_source"], "hand")
         self.assertLess(weight, report["settings"]["squeeze_N"])
         self.assertLess(report["settings"]["squeeze_N"], 50 * weight)
-        self.assertIn("times the force that supports the weight", done.stdout)
+        self.assertIn("2 × what the weight requires", done.stdout)
         report = self.assert_passes("--frames", "none")[1]
         self.assertEqual(report["settings"]["squeeze_source"], "shake")
         self.assertAlmostEqual(report["settings"]["squeeze_N"], 1000 * weight, places=6)
@@ -287,7 +287,7 @@ class Validate(ProgramCase):
         done = self.run_program(*self.arguments(*heavy))
         self.assertEqual((done.returncode, self.report()["settings"]["squeeze_N"]), (1, 200))
         self.assertEqual(self.report()["steps"][0]["cause"]["cause"], "weight")
-        self.assertIn("200 N, 0.4077 times the weight: largest grasp force of a hand", done.stdout)
+        self.assertIn("200 N, 0.4077 × weight: largest grasp force of a hand", done.stdout)
 
     def test_says_how_large_and_heavy_the_object_is_and_warns_of_what_no_hand_holds(self):
         done, _ = self.assert_passes("--frames", "none")

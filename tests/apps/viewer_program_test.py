@@ -77,6 +77,11 @@ class Viewer(ProgramCase):
         self.browser.value(SCENE_ONLY)
         return self.browser.screenshot("#viewer .stage")
 
+    def visible(self, selector):
+        """Return the number of visible elements."""
+        return self.browser.value(f"[...document.querySelectorAll({json.dumps(selector)})]"
+                                  ".filter(each => each.getClientRects().length > 0).length")
+
     def number(self, name):
         return float(self.browser.value(f"{STATE}.{name}"))
 
@@ -92,9 +97,13 @@ class Viewer(ProgramCase):
         colors = {pixel for row in pixels(shown) for pixel in row}
         self.assertGreater(len(colors), 100)
         # The image for pages without a viewer joins the other frames.
-        self.assertEqual(self.browser.value("document.querySelectorAll('.still img').length"), 0)
-        self.assertEqual(self.browser.value("document.querySelectorAll('.frames img').length"),
-                         len(self.plan_of_cube()["steps"]) + 1)
+        frames = len(self.plan_of_cube()["steps"]) + 1
+        self.assertEqual(self.visible(".still img"), 0)
+        self.assertEqual(self.visible(".frames img"), frames)
+        # In print it has its own place instead.
+        self.browser.resize(1000, 1000, media="print")
+        self.assertEqual(self.visible(".still img"), 1)
+        self.assertEqual(self.visible(".frames img"), frames - 1)
 
     def test_links_keys_and_the_slider_move_the_replay(self):
         self.validate_cube()
@@ -165,7 +174,7 @@ class Viewer(ProgramCase):
         self.assertEqual(self.browser.console, [])
         first = self.scene()
         line = "document.querySelector('.status span').textContent"
-        self.assertRegex(self.browser.value(line), r"rotated -?[0-9.]+° of 30\.0°")
+        self.assertRegex(self.browser.value(line), r"rotated −?[0-9.]+° of 30\.0°")
         self.browser.value("document.getElementById('viewer').viewer.setTime(1e9)")
         turned = float(re.search(r"rotated ([0-9.]+)°", self.browser.value(line))[1])
         self.assertAlmostEqual(turned, 30, delta=3)
@@ -176,6 +185,7 @@ class Viewer(ProgramCase):
                  "document.getElementById('viewer').viewer.scene.ghost.quaternion.clone().inverse()))")
         self.assertAlmostEqual(self.browser.value(angle), turned, delta=1)
 
+        self.check_detail()
         # Without recorded states the hand follows the plan, and a failed check of the hand stops it.
         hand = ["--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"), "--plan", "turn.json",
                 "--output", "result", "--frames", "none,viewer=all"]
@@ -189,6 +199,28 @@ class Viewer(ProgramCase):
         failure = "document.getElementById('viewer').viewer.data.failure"
         self.assertGreater(self.browser.value(failure + ".links.length"), 0)
         self.assertIn("apart", self.browser.value("document.querySelector('.tag.mark').textContent"))
+
+    def check_detail(self):
+        """Successive slow frames reduce the detail until the replay pauses."""
+        viewer = "document.getElementById('viewer').viewer"
+
+        def triangles():
+            return self.browser.value(viewer + ".renderer.info.render.triangles")
+
+        def adapt(*intervals_ms):
+            self.browser.value(f"{list(intervals_ms)}.forEach(interval => {viewer}.adapt(interval))")
+
+        full, before = self.scene(), triangles()
+        adapt(60, 60, 30, 60, 60)
+        self.assertEqual(triangles(), before)
+        adapt(60)
+        self.assertLess(triangles(), 0.7 * before)
+        width = self.browser.value(viewer + ".canvas.width")
+        adapt(60, 60, 60, 60, 60, 60)
+        self.assertLess(self.browser.value(viewer + ".canvas.width"), 0.6 * width)
+        self.browser.value(viewer + ".pause()")
+        self.assertEqual(triangles(), before)
+        self.assertEqual(different_pixels(full, self.scene()), 0)
 
     def test_a_page_with_200_steps_opens_and_its_slider_moves_the_object(self):
         hand = ["--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json")]
@@ -227,6 +259,13 @@ class Viewer(ProgramCase):
         left, right = self.browser.value(sides)
         self.assertGreaterEqual(left, 0)
         self.assertLessEqual(right, 390)
+        # The table of steps has a card per row, so that it does not scroll sideways.
+        wider = "(e => e.scrollWidth - e.clientWidth)(document.querySelector('table.cards').parentElement)"
+        self.assertEqual(self.browser.value(wider), 0)
+        name = "getComputedStyle(document.querySelector('.cards td[data-name]'), '::before').content"
+        self.assertIn("Required friction", self.browser.value(name))
+        self.browser.resize(1000, 844)
+        self.assertEqual(self.browser.value(name), "none")
 
     def test_it_has_a_dark_scheme_and_is_not_printed(self):
         self.validate_cube()

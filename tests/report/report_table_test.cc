@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "planner/base/number.h"
 #include "report/failure.h"
 #include "report/markup.h"
 #include "report/report_json.h"
+#include "sim/scene/scaling.h"
 
 namespace regrasp::report {
 namespace condition_table_test {
@@ -100,4 +104,30 @@ TEST(ConditionTableTest, JunitHasACasePerCondition) {
 }
 
 }  // namespace condition_table_test
+}  // namespace regrasp::report
+
+namespace regrasp::report {
+namespace grasp_force_text_test {
+
+TEST(GraspForceTextTest, HasAtMost60Characters) {
+  constexpr std::size_t kMost = 60;
+  for (const auto source : {sim::GraspForceSource::kDisturbance, sim::GraspForceSource::kHand,
+                            sim::GraspForceSource::kTorques, sim::GraspForceSource::kGiven}) {
+    // Only the default has no limit.
+    const bool is_default = source == sim::GraspForceSource::kDisturbance;
+    for (const double force_N :
+         {sim::kStrongestGrip_N / 3, is_default ? 211912.3 : sim::kStrongestGrip_N}) {
+      sim::ReplaySettings settings;
+      settings.grasp_force_source = source;
+      settings.grasp_force_N = force_N;
+      settings.mass_kg = 0.2161234;
+      const std::string text = GraspForceText(settings);
+      const auto is_continued = [](char byte) { return (byte & 0xc0) == 0x80; };
+      EXPECT_LE(text.size() - std::ranges::count_if(text, is_continued), kMost) << text;
+      EXPECT_THAT(text, testing::HasSubstr(" × weight"));
+    }
+  }
+}
+
+}  // namespace grasp_force_text_test
 }  // namespace regrasp::report

@@ -178,7 +178,7 @@ TEST(ReportTest, TheTableSaysHowLargeAndHeavyTheObjectIsAndWhyTheSqueezeIsWhatIt
   report.settings->grasp_force_N = 2119;
   const std::string usual = FormatReportTable(report);
   EXPECT_THAT(usual, HasSubstr("object: 10.4 cm across, 216 g\n"));
-  EXPECT_THAT(usual, HasSubstr("grasp force: 2119 N, 1000 times the weight: default"));
+  EXPECT_THAT(usual, HasSubstr("grasp force: 2119 N, 1000 × weight; see --grasp"));
   EXPECT_THAT(usual, HasSubstr("--grasp-force realistic"));
   report.settings->grasp_force_source = sim::GraspForceSource::kHand;
   EXPECT_THAT(FormatReportTable(report), Not(HasSubstr("--grasp-force realistic")));

@@ -50,6 +50,17 @@ TEST(AlignInsetTest, OnlySlidingStepsShorterThanAFingertipAreMagnified) {
   EXPECT_EQ(count(holding), 0U);
 }
 
+TEST(AlignInsetTest, ItIsOmittedIfItDoesNotDoubleTheMotion) {
+  const FingerGlyph glyph = MakeMoved(0.05);
+  const double magnification =
+      PlaceInsets(MakeCamera(), {&glyph, 1}, {}, kStyle).at(0).magnification;
+  for (const double of_inset : {1.95, 2.05}) {
+    Camera camera = MakeCamera();
+    camera.half_height *= of_inset / magnification;
+    EXPECT_EQ(PlaceInsets(camera, {&glyph, 1}, {}, kStyle).size(), of_inset < 2 ? 0U : 1U);
+  }
+}
+
 TEST(AlignInsetTest, ItIsInsideTheImageAndCentredAtThePath) {
   int checked = 0;
   for (const double length : {0.05, 0.01, 0.002}) {

@@ -46,6 +46,41 @@ std::vector<Color> ColorsOf(const plan::Snapshot& snapshot,
 bool IsReddish(Color c) { return c.r > 120 && c.g < 0.6 * c.r && c.b < 0.65 * c.r; }
 bool IsGrey(Color c) { return std::abs(c.r - c.b) < 30 && std::abs(c.r - c.g) < 30; }
 
+/// Return a cube of edge 2 in which each face has its own normals.
+ShadedMesh FlatCube() {
+  ShadedMesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int sign : {-1, 1}) {
+      const Vector3d n = sign * Vector3d::Unit(axis), u = Vector3d::Unit((axis + 1) % 3);
+      const Vector3d v = n.cross(u);
+      mesh.AddFlat(n - u - v, n + u - v, n + u + v);
+      mesh.AddFlat(n - u - v, n + u + v, n - u + v);
+    }
+  }
+  return mesh;
+}
+
+TEST(MakeHandMeshes, OffsetSurfacesHaveNoGapsAtCreases) {
+  // Links after joints are offset, and shells are larger than their links.
+  const HandView hand = {{{FingerIndex(0), 3}, false, FlatCube()}};
+  double before = 0;
+  for (const ShadedMesh& mesh :
+       MakeHandMeshes({{{FingerIndex(0), 0}, false, FlatCube()}}, Frame())) {
+    before = mesh.triangles[0][0].norm();  // that of the link, which is not offset
+  }
+  for (const ShadedMesh& mesh : MakeHandMeshes(hand, Frame())) {
+    std::vector<Vector3d> corners;
+    for (const auto& triangle : mesh.triangles) {
+      for (const Vector3d& p : triangle) {
+        const auto same = [&p](const Vector3d& other) { return (p - other).norm() < 1e-9; };
+        if (std::ranges::none_of(corners, same)) corners.push_back(p);
+        EXPECT_GT(p.norm(), before + 1e-3);
+      }
+    }
+    EXPECT_EQ(corners.size(), 8U);
+  }
+}
+
 TEST(HandFigure, AFingertipInContactHasTheColourOfItsFinger) {
   const std::vector<Color> colors = ColorsOf(Holding());
   ASSERT_EQ(colors.size(), 3u);

@@ -1,5 +1,6 @@
 #include "render/picture/caption.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
 namespace caption_test {
@@ -71,6 +74,22 @@ TEST(CaptionTest, FingersHaveNamesOrNumbers) {
   EXPECT_EQ(FrameCaption(plan, plan::EntryIndex(1), names),
             "step 1/1 · switch: place index, release 2");
   EXPECT_EQ(EntryTitle(plan, plan::EntryIndex(1)), "switch: place 1, release 2");
+}
+
+TEST(BreakLinesTest, LinesEndAtSpacesButNotBeforeAUnit) {
+  const CairoImage image(MakeImage(4, 4));
+  cairo_t* cr = image.context();
+  SelectFont(cr, 10, /*bold=*/false);
+  const auto lines = [cr](const std::string& text, const std::string& longest) {
+    return BreakLines(cr, text, TextWidth(cr, longest) + 0.1);
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(lines("move 3 by 5.6 cm, then go", "move 3 by 5.6"),
+              ElementsAre("move 3 by", "5.6 cm, then", "go"));
+  EXPECT_THAT(lines("move 3 by 5.6 cm, then go", "move 3 by 5.6 cm,"),
+              ElementsAre("move 3 by 5.6 cm,", "then go"));
+  EXPECT_THAT(lines("a m b", "a"), ElementsAre("a", "m", "b"));  // no unit without a number
+  EXPECT_THAT(lines("", "a"), ElementsAre(""));
 }
 
 }  // namespace caption_test

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string FormatFacts(const Report& report) {
-  return MakeFacts(report, MeasureSteps(report)).Format();
+  return MakeFacts(report, MeasureSteps(report)).Format() + MakeSettings(report).Format();
 }
 
 TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
@@ -28,8 +28,7 @@ TEST(FactsTest, SettingsAreToldOnlyOfAReplay) {
   EXPECT_THAT(FormatFacts(report), Not(HasSubstr("Grasp force")));
   report.settings.emplace().grasp_force_N = 25;
   report.settings->mass_kg = 2.5 / sim::kGravity;
-  EXPECT_THAT(FormatFacts(report),
-              HasSubstr("<dt>Grasp force</dt><dd>25 N, 10 times the weight: "));
+  EXPECT_THAT(FormatFacts(report), HasSubstr("<dt>Grasp force</dt><dd>25 N, 10 × weight; see "));
 }
 
 TEST(FactsTest, TheWeakestStepIsNamedWithWhatItHasToSpare) {
@@ -83,17 +82,40 @@ Report MakeReport() {
 }
 
 std::string FormatFindings(const Report& report) {
-  return Element("main", {}, MakeFindings(report)).Format();
+  return Element("main", {}, MakeDisagreements(report), MakeFindings(report)).Format();
 }
 
 TEST(FindingsTest, EveryReplayedStepHasItsWeakestFingerAndItsMargins) {
   const std::string text = FormatFindings(MakeReport());
-  EXPECT_THAT(text, HasSubstr("<td class=\"number\">3</td><td class=\"number\">12.00°</td>"));
+  EXPECT_THAT(text,
+              HasSubstr("<td class=\"number\">finger 3</td><td class=\"number\">12.00°</td>"));
   EXPECT_THAT(text, HasSubstr("4.50° (finger 2)"));
   EXPECT_THAT(text, HasSubstr("1.25° (finger 0)"));
   EXPECT_THAT(text, Not(HasSubstr("Disagreements")));
   EXPECT_THAT(text, Not(HasSubstr("Largest disturbance")));
   EXPECT_THAT(text, Not(HasSubstr("Fixed grasp force")));
+}
+
+TEST(FindingsTest, FingersOfAHandHaveTheirNames) {
+  const std::vector<std::string> names = {"<index>", "middle", "ring", "thumb"};
+  const std::string text = Element("main", {}, MakeFindings(MakeReport(), names)).Format();
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">thumb</td>"));
+  EXPECT_THAT(text, HasSubstr("4.50° (ring)"));
+  EXPECT_THAT(text, HasSubstr("1.25° (&lt;index&gt;)"));
+  EXPECT_THAT(text, Not(HasSubstr("finger 3")));
+}
+
+TEST(FindingsTest, ColumnsWithoutAValueAreOmitted) {
+  Report report = MakeReport();
+  EXPECT_THAT(FormatFindings(report), HasSubstr("Least force margin, disturbances"));
+  for (ReportStep& step : report.steps) step.replay->disturbance_margins.clear();
+  EXPECT_THAT(FormatFindings(report), Not(HasSubstr("Least force margin, disturbances")));
+  EXPECT_THAT(FormatFindings(report), HasSubstr("Least force margin, static grasp"));
+  for (ReportStep& step : report.steps) {
+    step.replay->static_margins.clear();
+    step.weakest_finger.reset();
+  }
+  EXPECT_EQ(FormatFindings(report), "<main></main>");
 }
 
 TEST(FindingsTest, WhatWasNotReplayedHasNone) {
