@@ -13,7 +13,7 @@ namespace regrasp::apps {
 
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 using Rows = std::vector<GraspRow>;
 
@@ -27,7 +27,7 @@ NpzArray TextArray(const char* name, const Rows& rows,
 NpzArray NumberArray(const char* name, const Rows& rows,
                      const std::function<std::optional<double>(const GraspRow&)>& number_of) {
   NpzArray array{.name = name, .shape = {rows.size()}};
-  for (const GraspRow& row : rows) array.values.push_back(number_of(row).value_or(kMissing));
+  for (const GraspRow& row : rows) array.values.push_back(number_of(row).value_or(kNoNumber));
   return array;
 }
 
@@ -36,7 +36,7 @@ NpzArray DirectionArray(const char* name, const Rows& rows, std::size_t protocol
   NpzArray array{.name = name, .shape = {rows.size(), kDirections}};
   for (const GraspRow& row : rows) {
     for (const std::optional<double>& value : row.results[protocol].by_direction) {
-      array.values.push_back(value.value_or(kMissing));
+      array.values.push_back(value.value_or(kNoNumber));
     }
   }
   return array;

@@ -29,7 +29,7 @@ constexpr double kMostEdgeAngle = Radians(20);
 constexpr double kFarthestTip_m = 1;
 /// Largest difference of a joint that a plan cannot move from its reference, radians or metres.
 constexpr double kFixedTolerance = 1e-3;
-constexpr double kRangeTolerance = 1e-6;
+constexpr double kJointTolerance = 1e-6;
 
 /// Return whether a joint moves the palm itself, so that the palm's pose includes its position.
 bool IsAbovePalm(const mjModel& model, int joint, int palm) {
@@ -75,7 +75,7 @@ class FingertipReader {
       Fail("/object/file: the grasp is for another object, expected " + setup_.object_file +
            ", found " + file);
     }
-    if (std::abs(grasp_.scale - setup_.scale) > kRangeTolerance * setup_.scale) {
+    if (std::abs(grasp_.scale - setup_.scale) > kJointTolerance * setup_.scale) {
       Fail("/object/scale: must be that of the plan, expected " + FormatShort(setup_.scale) +
            ", found " + FormatShort(grasp_.scale));
     }
@@ -112,8 +112,8 @@ class FingertipReader {
       configuration[drive] = kinematics::DriveAngle(joint, found->second);
       const double lower = finger.lower[drive];
       const double upper = finger.upper[drive];
-      if (configuration[drive] >= lower - kRangeTolerance &&
-          configuration[drive] <= upper + kRangeTolerance) {
+      if (configuration[drive] >= lower - kJointTolerance &&
+          configuration[drive] <= upper + kJointTolerance) {
         configuration[drive] = std::clamp(configuration[drive], lower, upper);
         continue;
       }
