@@ -51,10 +51,12 @@ std::string FailureText(const PlanOutcome& plan) {
       !failure->entry.valid() ? "Trials"
       : failure->entry == 0   ? "The hold"
                             : "Step " + std::to_string(failure->entry) + " (" + failure->kind + ")";
-  return where + ": " +
-         (failure->what.empty() ? failure->reason + "."
-                                : report::Capitalized(failure->what) + ".") +
-         report::CauseAndFix(failure->why, failure->suggested_fix);
+  std::string text =
+      where + ": " +
+      (failure->what.empty() ? failure->reason + "." : report::Capitalized(failure->what) + ".") +
+      report::CauseAndFix(failure->why, failure->suggested_fix);
+  std::ranges::replace(text, '\n', ' ');
+  return text;
 }
 
 /// Return the friction margin of the weakest step, degrees. A failed plan has only a missing

@@ -943,7 +943,7 @@ class Gait(ProgramCase):
 
     def test_effort_is_when_to_give_up(self):
         for effort, code in (("2", 1), ("8000", 0)):
-            done = self.run_program(*self.arguments("--turn", "z,300", "--planner", "budget=" + effort))
+            done = self.run_program(*self.arguments("--turn", "x,300", "--planner", "budget=" + effort))
             self.assertEqual(done.returncode, code, done.stderr)
 
     def test_explain_says_what_would_do(self):
