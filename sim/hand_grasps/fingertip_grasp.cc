@@ -29,7 +29,8 @@ constexpr double kMostEdgeAngle = Radians(20);
 constexpr double kFarthestTip_m = 1;
 /// Largest difference of a joint that a plan cannot move from its reference, radians or metres.
 constexpr double kFixedTolerance = 1e-3;
-constexpr double kJointTolerance = 1e-6;
+/// Rounding of numbers in files.
+constexpr double kRounding = 1e-6;
 
 /// Return whether a joint moves the palm itself, so that the palm's pose includes its position.
 bool IsAbovePalm(const mjModel& model, int joint, int palm) {
@@ -75,7 +76,7 @@ class FingertipReader {
       Fail("/object/file: the grasp is for another object, expected " + setup_.object_file +
            ", found " + file);
     }
-    if (std::abs(grasp_.scale - setup_.scale) > kJointTolerance * setup_.scale) {
+    if (std::abs(grasp_.scale - setup_.scale) > kRounding * setup_.scale) {
       Fail("/object/scale: must be that of the plan, expected " + FormatShort(setup_.scale) +
            ", found " + FormatShort(grasp_.scale));
     }
@@ -112,8 +113,8 @@ class FingertipReader {
       configuration[drive] = kinematics::DriveAngle(joint, found->second);
       const double lower = finger.lower[drive];
       const double upper = finger.upper[drive];
-      if (configuration[drive] >= lower - kJointTolerance &&
-          configuration[drive] <= upper + kJointTolerance) {
+      if (configuration[drive] >= lower - kRounding &&
+          configuration[drive] <= upper + kRounding) {
         configuration[drive] = std::clamp(configuration[drive], lower, upper);
         continue;
       }
