@@ -113,8 +113,7 @@ class FingertipReader {
       configuration[drive] = kinematics::DriveAngle(joint, found->second);
       const double lower = finger.lower[drive];
       const double upper = finger.upper[drive];
-      if (configuration[drive] >= lower - kRounding &&
-          configuration[drive] <= upper + kRounding) {
+      if (configuration[drive] >= lower - kRounding && configuration[drive] <= upper + kRounding) {
         configuration[drive] = std::clamp(configuration[drive], lower, upper);
         continue;
       }
