@@ -30,7 +30,7 @@ constexpr int kMaxInitialPoses = 24;
 constexpr double kLongTurn = std::numbers::pi;
 /// Largest angle of that axis from the vertical, radians.
 constexpr double kNearVertical = std::numbers::pi / 4;
-constexpr int kSides = 4;
+constexpr int kSides = 4;  ///< sides on which an object can lie: ±x and ±y up
 /// Offset in the logarithm of the number of reachable contacts.
 /// The logarithm makes all fingers count.
 constexpr double kNoContact = 0.3;
