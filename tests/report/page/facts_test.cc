@@ -151,7 +151,7 @@ TEST(FindingsTest, ThePushesAreATableOfBothRoutesAndAPlotOfTheLeast) {
   EXPECT_THAT(text, HasSubstr("torque -z"));
   EXPECT_THAT(text, HasSubstr("<svg"));
   report.steps.resize(1);
-  EXPECT_THAT(FormatFindings(report), Not(HasSubstr("<svg"))) << "one entry is no plot";
+  EXPECT_THAT(FormatFindings(report), Not(HasSubstr("<svg"))) << "one entry is not a plot";
 }
 
 }  // namespace findings_test
