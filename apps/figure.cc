@@ -331,7 +331,7 @@ std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object
   for (plan::EntryIndex i{0}; i <= std::ssize(plan.steps); ++i) {
     plan::Fault none;
     hand.snapshots.push_back(plan::MakePlannedSnapshot(plan, i, none, 0));
-    picture.MarkSwitch(i, hand.snapshots.back());
+    picture.MarkActions(i, hand.snapshots.back());
     picture.Place(i, hand.snapshots.back(), none);
   }
   return std::make_unique<render::HandPanels>(dynamic_cast<const object::Polyhedron&>(object), plan,

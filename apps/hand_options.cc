@@ -221,6 +221,12 @@ void HandOptions::AddTo(CLI::App& app) {
                   "force: every grasp is force closure\n"
                   "gravity: a grasp may also hold the object by its weight, with forces of up to 9 "
                   "weights, against disturbances of 0.1 weights");
+  AddChoice<bool>(
+      app, "--rolling", rolls, {{"on", true}, {"off", false}},
+      "Contacts of in-hand motions [default: off]\n"
+      "off: fixed on the object; real fingertips roll and deviate from them\n"
+      "on: fingertips roll without slipping. The plan has the rolled contacts, and every "
+      "grasp on the way is force closure");
   app.add_option("--continue", continue_plan,
                  "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")
@@ -255,6 +261,7 @@ void HandOptions::Check(const Ends& ends) const {
                                       {"--goals", goals},
                                       {"--gravity", gravity},
                                       {"--closure", gravity_support ? "gravity" : ""},
+                                      {"--rolling", rolls ? "on" : ""},
                                       {"--continue", continue_plan}}) {
     if (given() || value.empty()) continue;
     throw InputError(std::string(option) + " requires --hand");
@@ -297,6 +304,11 @@ void HandOptions::Check(const Ends& ends) const {
     if (continue_plan.empty() || value.empty()) continue;
     throw InputError(std::string("--continue: cannot be used with ") + option);
   }
+  if (rolls && (ends.has_goal || gravity_support)) {
+    throw InputError(
+        std::string("--rolling on: cannot be used with ") +
+        (gravity_support ? "--closure gravity" : "--goal, because contacts roll away"));
+  }
   if (!goal_tolerance.empty() && turn.empty() && goal_pose.empty() && !ends.ends_at_hand_grasp) {
     throw InputError("--goal-tolerance: requires --goal-pose or --turn");
   }
@@ -335,6 +347,7 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
     task.ups = {up};
   }
   if (gravity_support) task.gravity_support.emplace();
+  task.rolls = rolls;
   if (!goal_facing.empty()) task.goal = ParseFacing(goal_facing, up);
   if (!goals.empty() && task.hand != nullptr) task.goals = plan::ReadGoalList(goals, up);
 }

@@ -312,7 +312,7 @@ void PlanProgram::Finish(const CLI::App& app) {
   }
   for (const char* name :
        {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
-        "--goals", "--gravity", "--closure", "--continue", "--robustness"}) {
+        "--goals", "--gravity", "--closure", "--rolling", "--continue", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }

@@ -58,6 +58,7 @@ struct HandArguments {
   /// Unit vectors against gravity in the palm frame, to try in this order; empty: the hand's own.
   std::vector<Eigen::Vector3d> ups;
   bool gravity_support = false;      ///< whether grasps may hold the object by its weight
+  bool rolls = false;                ///< whether fingertips roll
   std::optional<std::string> goals;  ///< text of a file of goals
   std::string goals_name;            ///< name of this text in messages
   double clearance = 1e-3;
@@ -100,6 +101,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .ups = given.ups,
           .gravity_support =
               given.gravity_support ? std::optional(plan::GravitySupport()) : std::nullopt,
+          .rolls = given.rolls,
           .simulate = sim::ExecutionSimulator(
               hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
@@ -242,6 +244,7 @@ void BindPlans(py::module_& module) {
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("ups", &HandArguments::ups)
       .def_readwrite("gravity_support", &HandArguments::gravity_support)
+      .def_readwrite("rolls", &HandArguments::rolls)
       .def_readwrite("goals", &HandArguments::goals)
       .def_readwrite("goals_name", &HandArguments::goals_name)
       .def_readwrite("clearance", &HandArguments::clearance)

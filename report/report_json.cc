@@ -82,6 +82,7 @@ Json HandJson(const sim::HandMeasures& measures) {
   return {{"rest_displacement_m", measures.rest_off_m},
           {"rest_rotation_deg", Degrees(measures.rest_off_rad)},
           {"roll_m", measures.roll_m},
+          {"contact_off_m", measures.contact_off_m},
           {"torque_share", measures.torque_share},
           {"torque_Nm", measures.torque_Nm},
           {"control_limit_s", measures.control_limit_s},

@@ -47,6 +47,7 @@ struct InHandProgram {
   std::vector<std::string> only;
   double limit_s = bench::ScoreRun().limit_s;
   bool gravity = false;
+  bool rolls = false;
   int jobs = 1;
   bool list = false;
   bool quiet = false;
@@ -87,6 +88,8 @@ void InHandProgram::AddTo(CLI::App& app) {
   app.add_flag("--gravity-support", gravity,
                "Let gravity support grasps (plan --closure gravity). Requires a results file of "
                "its own");
+  app.add_flag("--rolling", rolls,
+               "Let fingertips roll (plan --rolling on). Requires a results file of its own");
   apps::AddInteger(app, "--jobs", jobs, 1, kMostJobs, "Number of parallel tasks [default: 1]");
   app.add_option("--task", task, "Task for which --plan is validated")->type_name("NAME");
   app.add_option("--plan", plan, "Plan file to validate")->type_name("FILE");
@@ -166,7 +169,8 @@ int InHandProgram::RunTasks() const {
   run.hands = &hands_;
   run.limit_s = limit_s;
   run.plans = plans;
-  if (gravity) run.gravity_support.emplace();
+  if (gravity) run.way.gravity_support.emplace();
+  run.way.rolls = rolls;
   if (run.chains.empty()) throw InputError("--only: no task has such a name or group");
   apps::ProgressLine line(quiet);
   apps::ProgressLog log(kProgram, quiet);

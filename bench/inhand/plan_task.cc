@@ -78,13 +78,16 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
 /// over other failures.
 planning::PlanResult Solve(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
                            const std::optional<TaskStart>& start, const Deadline& deadline,
-                           const std::optional<plan::GravitySupport>& support) {
+                           const HoldingWay& holding) {
   planning::PlanRequest request;
   request.object = &body.solid();
   request.object_name = body.file.file;
   request.criteria.friction_angle = std::atan(kFriction);
   auto ways = InHandTasksOf(hand, body, task, start, request.criteria);
-  for (planning::InHandTask& way : ways) way.gravity_support = support;
+  for (planning::InHandTask& way : ways) {
+    way.gravity_support = holding.gravity_support;
+    way.rolls = holding.rolls;
+  }
   planning::PlanResult found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     gait::AskInHand(ways[i], request);
@@ -117,12 +120,12 @@ TaskStart EndOf(const plan::Plan& plan) {
 
 PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body, const Task& task,
                      const std::optional<TaskStart>& start, double limit_s,
-                     const std::optional<plan::GravitySupport>& support) {
+                     const HoldingWay& holding) {
   PlannedTask planned;
   const double begin = ProcessorSeconds();
   try {
     planning::PlanResult result =
-        Solve(hand, body, task, start, ProcessorDeadline(limit_s), support);
+        Solve(hand, body, task, start, ProcessorDeadline(limit_s), holding);
     planned.seconds = ProcessorSeconds() - begin;
     planned.plan = std::move(result.plan);
     planned.message = std::move(result.message);

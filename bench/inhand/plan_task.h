@@ -20,6 +20,12 @@ struct TaskStart {
 /// Return the final state of a plan, for the task after it. @param plan  plan with a hand.
 [[nodiscard]] TaskStart EndOf(const plan::Plan& plan);
 
+/// How plans hold the object; the default is that of the program `plan`.
+struct HoldingWay {
+  std::optional<plan::GravitySupport> gravity_support = {};  ///< set: its weight may hold it, too
+  bool rolls = false;                                        ///< whether fingertips roll
+};
+
 struct PlannedTask {
   std::optional<plan::Plan> plan;
   double seconds = 0;   ///< processor time, s
@@ -36,10 +42,8 @@ struct PlannedTask {
 /// @param start    initial state; none: chosen by the planner. A task that moves the centroid
 ///     begins in a pose with good reach, or passes such a pose half-way.
 /// @param limit_s  processor time limit, s.
-/// @param support  set if grasps may hold the object by its weight.
 [[nodiscard]] PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body,
                                    const Task& task, const std::optional<TaskStart>& start,
-                                   double limit_s,
-                                   const std::optional<plan::GravitySupport>& support = {});
+                                   double limit_s, const HoldingWay& way = {});
 
 }  // namespace regrasp::bench

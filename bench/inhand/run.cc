@@ -87,7 +87,7 @@ Row RunTask(const ScoreRun& run, const Task& task, const kinematics::HandFile& h
     row.detail = task.after + " has no plan to continue";
     return row;
   }
-  const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s, run.gravity_support);
+  const PlannedTask planned = PlanTask(hand, body, task, start, run.limit_s, run.way);
   row.seconds = planned.seconds;
   if (!planned.plan) {
     row.reason = planned.trial ? plan::ReasonName(*planned.trial) : kNoPlan;

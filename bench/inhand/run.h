@@ -22,8 +22,7 @@ struct ScoreRun {
   double limit_s = 8;  ///< processor time to plan one task, s
   /// folder of plan files, with a subfolder for each hand; empty: not written
   std::filesystem::path plans;
-  /// Whether grasps may hold the object by its weight.
-  std::optional<plan::GravitySupport> gravity_support = {};
+  HoldingWay way = {};
 };
 
 /// @throws InputError  if there is no object with this name.

@@ -25,6 +25,7 @@ enum class RandomUse : std::uint32_t {
   kResetStates = 13,
   kPoseErrors = 14,
   kJointErrors = 15,
+  kRolledPaths = 16,
 };
 
 /// Random numbers that are identical on all machines.

@@ -203,6 +203,8 @@ void Append(const Keyframe& before, FingerIndex finger, const JointConfiguration
 }  // namespace
 
 const tree::SurfaceRoute* SlideRoutes::Between(int from, int to) {
+  // A given contact that has rolled onto an edge has no face, and no route begins there.
+  if (!memory_.contact(from).face.valid() || !memory_.contact(to).face.valid()) return nullptr;
   const auto [found, is_new] = cache_.try_emplace({from, to});
   if (is_new) {
     found->second = tree::FindSurfaceRoute(memory_.object(), memory_.contact(from),

@@ -11,6 +11,7 @@
 #include "planner/base/number.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/gait/rolled_gait.h"
 #include "planner/gait/schedule.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/reason.h"
@@ -251,11 +252,34 @@ struct SearchConfig {
   }
 };
 
+/// Return the gait as it is planned: with rolling contacts if the request asks for them.
+/// @param merged  gait with merged in-hand motions.
+RolledGait AsPlanned(const HandSetup& setup, const GaitRequest& request,
+                     const collision::BallContact& surface, const Gait& merged) {
+  if (!request.rolls) return {merged, static_cast<int>(merged.segments.size())};
+  return RollContacts(setup, surface, request.criteria.friction_angle, merged,
+                      RandomStream(request.seed, RandomUse::kRolledPaths));
+}
+
 /// Return a simulator of gaits as they would be planned.
 SimulateExecution SimulatorFor(const HandSetup& setup, const GaitRequest& request,
+                               const collision::BallContact& surface,
                                const std::vector<grasp::Contact>& contacts) {
   return [&](const Gait& gait) -> GaitExecution {
-    const Gait merged = MergeMoves(setup, gait);
+    Gait merged = MergeMoves(setup, gait);
+    RolledGait planned = AsPlanned(setup, request, surface, merged);
+    if (!planned.gait) {
+      const auto failed = merged.segments.begin() + planned.segments;
+      const bool fails_in_move = failed->kind == PlanSegment::Kind::kMove;
+      merged.segments.erase(failed, merged.segments.end());
+      return {CountChanges(merged, planned.segments),
+              true,
+              fails_in_move,
+              false,
+              false,
+              planned.reason};
+    }
+    merged = *std::move(planned.gait);
     request.progress("simulating a plan");
     const plan::Plan plan = PlanOf(merged, request, contacts);
     const auto execution = request.simulate(plan, request.deadline);
@@ -269,6 +293,15 @@ SimulateExecution SimulatorFor(const HandSetup& setup, const GaitRequest& reques
             execution->is_cut_short,
             execution->reason};
   };
+}
+
+/// Return a found gait as it is planned, or the reason why its contacts cannot roll.
+FoundGait Planned(const HandSetup& setup, const GaitRequest& request,
+                  const collision::BallContact& surface, const Gait& merged) {
+  RolledGait planned = AsPlanned(setup, request, surface, merged);
+  if (planned.gait) return {std::move(planned.gait), ""};
+  return {std::nullopt, "contacts of the gait that was found cannot roll (" +
+                            std::string(plan::ReasonName(planned.reason)) + ")"};
 }
 
 /// Describe the given grasp that cannot be robust in any gait; empty if there is none.
@@ -319,7 +352,8 @@ GaitResult FindGait(const GaitRequest& request) {
         // Whether gravity supports a given grasp depends on the pose.
         if (!asked.gravity_support) rejection = NonRobustEnd(ends, config->memory, config->quality);
         if (!rejection.empty()) return;
-        if (asked.simulate) config->simulate = SimulatorFor(config->setup, asked, result.contacts);
+        if (asked.simulate)
+          config->simulate = SimulatorFor(config->setup, asked, rolled_on, result.contacts);
       }
       configs.push_back(std::move(config));
     };
@@ -332,7 +366,7 @@ GaitResult FindGait(const GaitRequest& request) {
     }
     MultiStartSearch search(asked, std::move(terms), ends);
     std::optional<Gait> gait = search.Search();
-    if (gait) return {std::move(gait), ""};
+    if (gait) return Planned(configs.front()->setup, asked, rolled_on, *gait);
     return {std::nullopt, FailureSummary(asked, search.counts())};
   };
   SimulatedGait simulated;

@@ -6,6 +6,7 @@
 
 #include "planner/grasp/contact.h"
 #include "planner/kinematics/hand_model.h"
+#include "planner/plan/plan.h"
 
 namespace regrasp::gait {
 
@@ -86,6 +87,9 @@ struct PlanSegment {
   /// Contacts [waypoint][sliding finger] including both ends, in object units.
   std::vector<std::vector<grasp::Contact>> waypoints = {};
   std::vector<int> waypoint_frames = {};  ///< keyframe number [waypoint]
+  /// Contacts [keyframe] of an in-hand motion in which fingertips roll (rolled_gait.h), in object
+  /// units. Empty: contacts are fixed.
+  std::vector<plan::FingerGrasp> rolled = {};
 };
 
 /// Gait: an alternating sequence of in-hand motions and contact changes between two stances.

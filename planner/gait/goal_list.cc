@@ -7,6 +7,7 @@
 
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
+#include "planner/plan/projection.h"
 
 namespace regrasp::gait {
 
@@ -110,7 +111,11 @@ class GoalListSearch {
     if (!before.plan) return request;
     const plan::HandEnd end = plan::EndOfPlan(*before.plan);
     StartFrom(end, request);
-    request.start_grasp = plan::ContactsOf(end.grasp);
+    request.start_grasp.clear();
+    for (const plan::FingerContact& held : end.grasp) {
+      // Contacts that have rolled have no face yet.
+      request.start_grasp.push_back(plan::ProjectContact(*request_.solid, held.contact).contact);
+    }
     if (request.simulate) {
       request.simulate = SimulatorAfter(request_, *before.plan, request_.goals[goal]);
     }

@@ -60,6 +60,20 @@ plan::Align SlideOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
   return align;
 }
 
+/// Return the in-hand motion, with its contacts if they roll.
+/// @param grasp  grasp before the step, which gives the order of the fingers.
+plan::Move MoveOf(const PlanSegment& segment, const plan::FingerGrasp& grasp,
+                  const kinematics::HandModel& hand) {
+  plan::Move move{PathOf(segment, hand)};
+  for (const plan::FingerGrasp& rolled : segment.rolled) {
+    move.contacts.push_back(grasp);
+    for (plan::FingerContact& held : move.contacts.back()) {
+      held.contact = plan::FindFinger(rolled, held.finger)->contact;
+    }
+  }
+  return move;
+}
+
 /// Mark the goal of the request in a plan, unless it is the final pose with the default tolerance.
 void MarkGoal(const Gait& gait, const GaitRequest& request, plan::Plan& plan) {
   const ObjectTask task(request.scale * request.solid->mass_properties().centroid, request.turn,
@@ -142,7 +156,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
     const PlanSegment& segment = gait.segments[i];
     switch (segment.kind) {
       case PlanSegment::Kind::kMove:
-        plan.steps.emplace_back(plan::Move{PathOf(segment, hand)});
+        plan.steps.emplace_back(MoveOf(segment, GraspAtEnd(plan), hand));
         break;
       case PlanSegment::Kind::kPlace: {
         const plan::FingerContact placed{segment.finger, contacts[segment.contact]};

@@ -137,9 +137,12 @@ motion::ProofBudget BudgetOf(const Plan& plan) {
   std::int64_t contacts = 0;
   for (const Step& step : plan.steps) {
     const auto* align = std::get_if<Align>(&step);
-    if (align == nullptr) continue;
-    for (const FingerGrasp& waypoint : align->waypoints) {
-      contacts += static_cast<std::int64_t>(waypoint.size());
+    const auto* move = std::get_if<Move>(&step);
+    const std::vector<FingerGrasp> none;
+    for (const FingerGrasp& grasp : align != nullptr  ? align->waypoints
+                                    : move != nullptr ? move->contacts
+                                                      : none) {
+      contacts += static_cast<std::int64_t>(grasp.size());
     }
   }
   return motion::ProofBudget(kUnitsOfAPlan + kUnitsOfAContact * contacts);

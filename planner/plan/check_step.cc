@@ -58,6 +58,8 @@ std::string FingerName(FingerIndex finger) { return "finger " + std::to_string(f
 
 std::string WaypointName(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint); }
 
+std::string StateName(std::size_t state) { return "state " + std::to_string(state); }
+
 /// Waypoint number of a grasp that is not a waypoint of a sliding step.
 constexpr int kNoWaypoint = -1;
 
@@ -180,7 +182,7 @@ void CheckContinuity(const CheckContext& context, const FingerGrasp& before,
               (angle > kNormalTolerance ? ", its normal rotated by " + FormatDegrees(Degrees(angle))
                                         : ""),
           Misplaced(held.finger, 0, moved->contact, held.contact));
-    } else if (moved->contact.face.valid() &&
+    } else if (held.contact.face.valid() && moved->contact.face.valid() &&
                FindMotionFault(context.object, held.contact, moved->contact)) {
       fault.Add(
           Reason::kDiscontinuous,
@@ -216,6 +218,48 @@ void CheckWaypoint(const CheckContext& context, const FingerGrasp& before,
   CheckNamedOnce(waypoint, index, fault);
   for (const FingerContact& held : waypoint) CheckFingerNumber(context, held.finger, index, fault);
   CheckSameFingers(before, waypoint, index, fault);
+}
+
+/// Return whether a normal is between those of the faces at a point: equal to the normal of a face
+/// or, on edges and corners, no farther from any of them than they are from each other.
+bool IsBetweenFaces(const object::Object& object, const std::vector<FaceIndex>& faces,
+                    const Eigen::Vector3d& normal) {
+  double farthest = 0;
+  double spread = 0;
+  double nearest = std::numbers::pi;
+  for (const FaceIndex face : faces) {
+    const Eigen::Vector3d& inward = object.inward_normal(face);
+    const double angle = grasp::AngleBetween(normal, inward);
+    farthest = std::max(farthest, angle);
+    nearest = std::min(nearest, angle);
+    for (const FaceIndex other : faces) {
+      spread = std::max(spread, grasp::AngleBetween(inward, object.inward_normal(other)));
+    }
+  }
+  return nearest <= kNormalTolerance || farthest <= spread + kNormalTolerance;
+}
+
+/// Check the contacts at a state of an in-hand motion with rolling.
+/// They are on the surface, and their normals are those of the surface there.
+void CheckRolled(const CheckContext& context, const FingerGrasp& before, const FingerGrasp& rolled,
+                 int state, StepFault& fault) {
+  CheckNamedOnce(rolled, kNoWaypoint, fault);
+  CheckSameFingers(before, rolled, kNoWaypoint, fault);
+  for (const FingerContact& held : rolled) {
+    const auto add = [&](Reason reason, const std::string& what) {
+      const grasp::Contact nearest = NearestContact(context.object, held.contact);
+      fault.Add(reason, FingerName(held.finger) + what + " in " + StateName(state),
+                Misplaced(held.finger, kNoWaypoint, held.contact, nearest));
+    };
+    const std::vector<FaceIndex> faces =
+        context.object.FacesNear(held.contact.p, SurfaceTolerance(context.object));
+    if (faces.empty()) {
+      add(Reason::kOffSurface, " is off the surface");
+    } else if (std::abs(held.contact.n.norm() - 1) > kNormalLengthTolerance ||
+               !IsBetweenFaces(context.object, faces, held.contact.n)) {
+      add(Reason::kWrongNormal, " has a normal that is not between those of its faces");
+    }
+  }
 }
 
 /// Check the motions between waypoints that have no other faults.
@@ -268,12 +312,16 @@ std::string UnprovedText(const motion::PathForceClosure& path, const std::string
                    : "");
 }
 
-/// Include the motion from one waypoint to the next in a sliding step's force closure.
-void IncludeMotion(const CheckContext& context, const Align& step, int waypoint, StepCheck& check,
+/// Include the motion of the contacts from one grasp to the next in a step's force closure.
+/// @param grasps  grasps of the same fingers: the waypoints of a sliding step, or those at the
+///     states of an in-hand motion with rolling.
+/// @param name  name of a grasp in messages.
+void IncludeMotion(const CheckContext& context, const std::vector<FingerGrasp>& grasps,
+                   int waypoint, std::string (*name)(std::size_t), StepCheck& check,
                    StepFault& fault) {
   if (!context.judge_force_closure) return;
-  const FingerGrasp& from = step.waypoints[waypoint];
-  const motion::GraspMotion motion = MotionBetween(from, step.waypoints[waypoint + 1]);
+  const FingerGrasp& from = grasps[waypoint];
+  const motion::GraspMotion motion = MotionBetween(from, grasps[waypoint + 1]);
   const object::WrenchFrame frame = context.object.wrench_frame();
   const motion::PathForceClosure path =
       motion::DecidePathForceClosure(motion, frame, context.friction_angle, context.decisions);
@@ -283,7 +331,7 @@ void IncludeMotion(const CheckContext& context, const Align& step, int waypoint,
       motion::ComputePathRequiredFrictionAngle(motion, frame, proven, context.bounds);
   check.required = Larger(check.required, required);
   check.undecided += path.undecided;
-  const std::string way = "from " + WaypointName(waypoint) + " to " + WaypointName(waypoint + 1);
+  const std::string way = "from " + name(waypoint) + " to " + name(waypoint + 1);
   const bool allowed = context.allow_undecided && !path.ended_early;
   const auto lost_at = [&](const std::optional<grasp::RequiredFrictionAngle>& needed) {
     Fault loss = LossOfClosure(context, FingersAt(from, motion, path.at), needed);
@@ -379,10 +427,26 @@ StepCheck CheckMove(const CheckContext& context, const FingerGrasp& before, cons
   StepCheck check;
   check.kind = StepKind(Move{});
   StepFault fault;
-  BeginForceClosure(context, check);
   const HandPath path = PathFrom(context.state, step.path);
-  check.ends_supported =
-      IncludeRest(context, before, "the grasp of the in-hand motion", path, check, fault);
+  if (step.contacts.empty()) {
+    BeginForceClosure(context, check);
+    check.ends_supported =
+        IncludeRest(context, before, "the grasp of the in-hand motion", path, check, fault);
+    return Finish(check, fault);
+  }
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    CheckRolled(context, before, step.contacts[i], static_cast<int>(i), fault);
+  }
+  CheckCoincidence(context, step.contacts.back(), fault);
+  CheckContinuity(context, before, step.contacts.front(), fault);
+  if (fault.none()) {
+    BeginForceClosure(context, check);
+    (void)IncludeRest(context, before, "the grasp before the step", {}, check, fault);
+    (void)IncludeRest(context, step.contacts.back(), "the grasp after the step", {}, check, fault);
+    for (std::size_t i = 0; i + 1 < step.contacts.size(); ++i) {
+      IncludeMotion(context, step.contacts, static_cast<int>(i), StateName, check, fault);
+    }
+  }
   return Finish(check, fault);
 }
 
@@ -407,7 +471,7 @@ StepCheck CheckAlign(const CheckContext& context, const FingerGrasp& before, con
                       fault);
     (void)IncludeRest(context, step.waypoints.back(), "the grasp after the step", {}, check, fault);
     for (std::size_t w = 0; w + 1 < step.waypoints.size(); ++w) {
-      IncludeMotion(context, step, static_cast<int>(w), check, fault);
+      IncludeMotion(context, step.waypoints, static_cast<int>(w), WaypointName, check, fault);
     }
     AddObstacle(FindStepObstacle(context.object, before, step, context.least_radius()), fault);
   }

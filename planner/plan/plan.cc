@@ -28,6 +28,8 @@ void SetTorsion(double torsion, Plan& plan) {
       SetTorsion(torsion, finger_switch->place);
     } else if (auto* align = std::get_if<Align>(&step)) {
       for (FingerGrasp& waypoint : align->waypoints) SetTorsion(torsion, waypoint);
+    } else {
+      for (FingerGrasp& rolled : std::get<Move>(step).contacts) SetTorsion(torsion, rolled);
     }
   }
   for (grasp::Contact& contact : plan.goal) contact.torsion = torsion;
@@ -43,11 +45,19 @@ const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger) {
   return found == grasp.end() ? nullptr : &*found;
 }
 
+bool HaveSameFingers(const FingerGrasp& a, const FingerGrasp& b) {
+  return a.size() == b.size() && std::ranges::all_of(a, [&](const FingerContact& held) {
+           return FindFinger(b, held.finger) != nullptr;
+         });
+}
+
 FingerGrasp GraspAfter(const FingerGrasp& before, const Step& step) {
   if (const auto* align = std::get_if<Align>(&step)) {
     return align->waypoints.empty() ? before : align->waypoints.back();
   }
-  if (std::holds_alternative<Move>(step)) return before;
+  if (const auto* move = std::get_if<Move>(&step)) {
+    return move->contacts.empty() ? before : move->contacts.back();
+  }
   const auto& finger_switch = std::get<Switch>(step);
   FingerGrasp after = before;
   std::erase_if(after, [&](const FingerContact& held) {
@@ -137,6 +147,13 @@ HandEnd EndOfPlan(const Plan& plan) {
     end.grasp = GraspAfter(end.grasp, step);
   }
   return end;
+}
+
+bool HasRolling(const Plan& plan) {
+  return std::ranges::any_of(plan.steps, [](const Step& step) {
+    const auto* move = std::get_if<Move>(&step);
+    return move != nullptr && !move->contacts.empty();
+  });
 }
 
 std::vector<const HandPath*> PathsOf(const Step& step) {

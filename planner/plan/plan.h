@@ -112,10 +112,15 @@ struct Align {
       std::nullopt;  ///< paths of the hand; only in a plan for a hand
 };
 
-/// In-hand motion: the object moves in the hand, and all fingers keep their contacts and move with
-/// it. Without a hand model the fingers do not change.
+/// In-hand motion: the object moves in the hand, and all fingers stay in contact and move with it.
+/// Contacts are fixed on the object, or fingertips roll along the surface without slipping.
 struct Move {
   HandPath path;
+  /// Contacts at each state of the path, if fingertips roll. Between two states the points move
+  /// straight and the normals rotate on great circles (GraspBetween). The first element is the
+  /// grasp before the step. A contact on an edge may have any normal between those of its faces.
+  /// Empty: contacts are fixed on the object.
+  std::vector<FingerGrasp> contacts = {};
 };
 
 using Step = std::variant<Switch, Align, Move>;
@@ -185,6 +190,9 @@ void SetTorsion(double torsion, Plan& plan);
 /// Return the contact of a finger; null if it is not in contact.
 [[nodiscard]] const FingerContact* FindFinger(const FingerGrasp& grasp, FingerIndex finger);
 
+/// Return whether two grasps, each with one contact per finger, are those of the same fingers.
+[[nodiscard]] bool HaveSameFingers(const FingerGrasp& a, const FingerGrasp& b);
+
 /// Return the grasp after `step` from the grasp `before`.
 /// Fingers keep their order; a placed finger comes last. Fingers of `release` that are not in
 /// contact are ignored, because the checker reports them.
@@ -229,6 +237,9 @@ struct HandEnd {
 /// Return the state after the last step of a plan for a hand.
 /// @throws std::invalid_argument  if the plan has no hand.
 [[nodiscard]] HandEnd EndOfPlan(const Plan& plan);
+
+/// Return whether fingertips roll in a step of a plan (Move::contacts).
+[[nodiscard]] bool HasRolling(const Plan& plan);
 
 /// Return all paths of a step's hand motion in order; empty if the plan has none.
 [[nodiscard]] std::vector<const HandPath*> PathsOf(const Step& step);

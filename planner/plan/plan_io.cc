@@ -93,10 +93,34 @@ Align ReadAlign(const JsonReader& json, int dimension) {
   return step;
 }
 
+Move ReadMove(const JsonReader& json, int dimension) {
+  Move step{ReadHandPath(json.Member("path"))};
+  if (!json.Has("contacts")) return step;
+  for (const JsonReader& grasp : json.Member("contacts").Elements()) {
+    step.contacts.push_back(ReadFingerGrasp(grasp, dimension));
+  }
+  if (step.contacts.size() != step.path.size()) {
+    json.Member("contacts")
+        .Fail("expected one grasp for each of the " + std::to_string(step.path.size()) +
+              " states of the path, found " + std::to_string(step.contacts.size()));
+  }
+  return step;
+}
+
+Json MoveJson(const Move& step, int dimension) {
+  Json json = {{"kind", "move"}, {"path", HandPathJson(step.path)}};
+  if (step.contacts.empty()) return json;
+  json["contacts"] = Json::array();
+  for (const FingerGrasp& grasp : step.contacts) {
+    json["contacts"].push_back(FingerGraspJson(grasp, dimension));
+  }
+  return json;
+}
+
 Step ReadStep(const JsonReader& json, int dimension) {
   const std::string kind = json.Member("kind").OneOf({"switch", "align", "move"});
   if (kind == "switch") return ReadSwitch(json, dimension);
-  if (kind == "move") return Move{ReadHandPath(json.Member("path"))};
+  if (kind == "move") return ReadMove(json, dimension);
   return ReadAlign(json, dimension);
 }
 
@@ -252,7 +276,7 @@ Json StepJson(const Step& step, int dimension) {
     return SwitchJson(*finger_switch, dimension);
   }
   if (const auto* move = std::get_if<Move>(&step)) {
-    return {{"kind", "move"}, {"path", HandPathJson(move->path)}};
+    return MoveJson(*move, dimension);
   }
   return AlignJson(std::get<Align>(step), dimension);
 }
@@ -278,6 +302,9 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
   for (const JsonReader& step : root.Member("steps").Elements()) {
     plan.steps.push_back(ReadStep(step, plan.dimension));
+  }
+  if (!plan.hand && HasRolling(plan)) {
+    root.Member("steps").Fail("contacts of an in-hand motion require the member hand of the plan");
   }
   if (plan.hand && !plan.hand->goals.empty() &&
       plan.hand->goals.back().step > std::ssize(plan.steps)) {

@@ -127,6 +127,9 @@ Plan ProjectPlan(const object::Object& object, const Plan& plan) {
       ProjectAll(object, finger_switch->place);
     } else if (auto* align = std::get_if<Align>(&step)) {
       ProjectAlign(object, *align);
+    } else {
+      // A rolled contact on an edge has no face and stays as it is.
+      for (FingerGrasp& rolled : std::get<Move>(step).contacts) ProjectAll(object, rolled);
     }
   }
   for (grasp::Contact& contact : projected.goal) contact = ProjectContact(object, contact).contact;
@@ -360,10 +363,11 @@ std::vector<FingerState> DuringSwitch(const FingerGrasp& before, const Switch& s
 }
 
 /// Return the state of a finger on its path from the first waypoint to `waypoint`.
-FingerState OnItsWay(const FingerContact& held, const Align& step, int waypoint) {
+FingerState OnItsWay(const FingerContact& held, const std::vector<FingerGrasp>& waypoints,
+                     int waypoint) {
   FingerState state = StateOf(held, FingerRole::kMoved);
   for (int w = 0; w <= waypoint; ++w) {
-    const FingerContact* there = FindFinger(step.waypoints[w], held.finger);
+    const FingerContact* there = FindFinger(waypoints[w], held.finger);
     if (there != nullptr) state.path_W.push_back(there->contact.p);
   }
   state.path_W.push_back(held.contact.p);
@@ -371,14 +375,16 @@ FingerState OnItsWay(const FingerContact& held, const Align& step, int waypoint)
   return StateOf(held, FingerRole::kHolding);
 }
 
-std::vector<FingerState> DuringAlign(const FingerGrasp& before, const Align& step,
-                                     const Fault& fault) {
-  const int last = static_cast<int>(step.waypoints.size()) - 1;
+/// Return the states of fingers that slide or roll along the surface.
+std::vector<FingerState> AlongSurface(const FingerGrasp& before,
+                                      const std::vector<FingerGrasp>& waypoints,
+                                      const Fault& fault) {
+  const int last = static_cast<int>(waypoints.size()) - 1;
   const int waypoint = fault.waypoint < 0 ? last : std::min(fault.waypoint, last);
-  const FingerGrasp& planned = last < 0 ? before : step.waypoints[waypoint];
+  const FingerGrasp& planned = last < 0 ? before : waypoints[waypoint];
   std::vector<FingerState> states;
   for (const FingerContact& held : Select(fault.grasp.empty() ? planned : fault.grasp, fault)) {
-    states.push_back(OnItsWay(held, step, waypoint));
+    states.push_back(OnItsWay(held, waypoints, waypoint));
   }
   return states;
 }
@@ -396,8 +402,10 @@ std::vector<FingerState> DuringEntry(const Plan& plan, int entry, const Fault& f
   const Step& step = plan.steps[entry - 1];
   const FingerGrasp before = GraspBefore(plan, entry);
   if (const auto* change = std::get_if<Switch>(&step)) return DuringSwitch(before, *change, fault);
-  if (const auto* align = std::get_if<Align>(&step)) return DuringAlign(before, *align, fault);
-  return AtHold(before, fault);
+  if (const auto* align = std::get_if<Align>(&step)) {
+    return AlongSurface(before, align->waypoints, fault);
+  }
+  return AlongSurface(before, std::get<Move>(step).contacts, fault);
 }
 
 }  // namespace

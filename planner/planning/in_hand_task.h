@@ -81,6 +81,9 @@ struct InHandTask {
   std::vector<Eigen::Vector3d> ups = {};
   /// Set if grasps may hold the object by its weight instead of force closure.
   std::optional<plan::GravitySupport> gravity_support = {};
+  /// Whether fingertips roll in in-hand motions (plan::Move::contacts). If not, their contacts are
+  /// fixed in the plan, and a real fingertip deviates from them.
+  bool rolls = false;
   /// Fingers of the contacts of a given start grasp, in its order; empty: any fingers.
   std::vector<FingerIndex> start_fingers = {};
   /// Joint angles [finger][joint] at the start, radians (plan::HandState::joints); empty: any.

@@ -220,7 +220,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  start: GivenGrasp | dict | None = None, goal: GivenGrasp | dict | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  goals: str | os.PathLike | Sequence[dict] | None = None,
-                 gravity: str | ArrayLike | None = None, closure: str = "force", optimize: str = "steps",
+                 gravity: str | ArrayLike | None = None, closure: str = "force", rolling: bool = False,
+                 optimize: str = "steps",
                  reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
@@ -251,6 +252,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             hand file and then the six axes. Default: the direction of the hand file.
         closure: "force" for force closure. "gravity" also permits grasps that hold the object by its
             weight, with forces of up to 9 weights, against disturbances of 0.1 weights.
+        rolling: whether fingertips roll without slipping in in-hand motions, instead of contacts that
+            are fixed on the object. Cannot be used with `goal` or the closure "gravity".
         optimize: "steps", or "margin" for the plan that fails under the fewest standard conditions.
         reserve: robustness of the plan. "required" returns only a plan that executes in simulation on
             the hand's actuators. "preferred" returns a plan that does not if there is no other.
@@ -311,6 +314,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         if isinstance(gravity, str) and goals is not None:
             raise InputError('gravity "any" cannot be used with goals, which depend on the direction of gravity')
         task.ups = _ups(gravity, hand)
+    if rolling and (goal is not None or closure == "gravity"):
+        raise InputError(f"rolling cannot be used with {'goal' if goal is not None else 'closure gravity'}")
+    task.rolls = bool(rolling)
     task.gravity_support = _arguments.choice("closure", closure, ["force", "gravity"]) == "gravity"
     given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, ["steps", "margin"]))
     words = ["preferred", "required", "standard", "none"]

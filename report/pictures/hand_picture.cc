@@ -173,8 +173,23 @@ std::vector<Isometry3d> HandPicture::PlannedPoses() const {
   return poses;
 }
 
-void HandPicture::MarkSwitch(plan::EntryIndex entry, plan::Snapshot& snapshot) const {
+void HandPicture::MarkRolling(const plan::Move& move, plan::Snapshot& snapshot) const {
+  for (plan::FingerState& finger : snapshot.fingers) {
+    finger.path_W.clear();
+    for (const plan::FingerGrasp& grasp : move.contacts) {
+      const plan::FingerContact* held = plan::FindFinger(grasp, finger.finger);
+      if (held != nullptr) finger.path_W.push_back(plan_.scale * held->contact.p);
+    }
+    if (!finger.path_W.empty()) finger.role = plan::FingerRole::kMoved;
+  }
+}
+
+void HandPicture::MarkActions(plan::EntryIndex entry, plan::Snapshot& snapshot) const {
   if (entry == 0) return;
+  if (const auto* move = std::get_if<plan::Move>(&plan::StepOf(plan_, entry))) {
+    MarkRolling(*move, snapshot);
+    return;
+  }
   const auto* change = std::get_if<plan::Switch>(&plan::StepOf(plan_, entry));
   if (change == nullptr) return;
   for (plan::FingerState& finger : snapshot.fingers) {

@@ -59,15 +59,17 @@ class HandPicture {
   void Place(plan::EntryIndex entry, plan::Snapshot& snapshot, plan::Fault& fault,
              const plan::HandState* actual = nullptr) const;
 
-  /// Mark the fingers that a finger switch places and releases. Other entries do not change.
+  /// Mark the fingers that a finger switch places and releases, and the paths of fingertips that
+  /// roll in an in-hand motion. Other entries do not change.
   /// @param snapshot  static grasp after the entry, not placed yet.
-  void MarkSwitch(plan::EntryIndex entry, plan::Snapshot& snapshot) const;
+  void MarkActions(plan::EntryIndex entry, plan::Snapshot& snapshot) const;
 
   /// Set the links of a snapshot.
   /// @param joints  joint angles of all fingers, one after the other, radians.
   void Pose(std::span<const double> joints, plan::Snapshot& snapshot) const;
 
  private:
+  void MarkRolling(const plan::Move& move, plan::Snapshot& snapshot) const;
   void Stand(const plan::HandState& state, plan::Snapshot& snapshot) const;
   void PlaceLinks(const std::vector<std::vector<double>>& joints, plan::Snapshot& snapshot) const;
   [[nodiscard]] std::vector<plan::HandState> StatesOf(const plan::Plan& plan) const;

@@ -77,7 +77,7 @@ ShownEntry ShowSound(const ReportStep& step, const HandPicture* hand,
                                                                   /*fingertip_radius_m=*/0)};
   plan::Fault none;
   if (hand == nullptr) return shown;
-  hand->MarkSwitch(step.check.index, shown.snapshot);
+  hand->MarkActions(step.check.index, shown.snapshot);
   hand->Place(step.check.index, shown.snapshot, none);
   return shown;
 }

@@ -165,10 +165,25 @@ void EntryReplay::Describe(StepReplay& step) const {
   step.moved_m = measures.off_m + radius_ * measures.off_rad;
   step.drift_m = measures.rest_off_m + radius_ * measures.rest_off_rad;
   step.slip_m = measures.slip_m;
+  step.hand->contact_off_m = ContactDeviation(step);
   const auto& violation = monitor_.violation();
   if (!violation || step.reason != plan::Reason::kNone) return;
   static_cast<Violation&>(step) = *violation;
   step.contact_lost = violation->reason == plan::Reason::kContactLost;
+}
+
+double EntryReplay::ContactDeviation(const StepReplay& step) const {
+  plan::FingerGrasp planned = plan_.initial;
+  for (plan::EntryIndex k{1}; k <= step.index; ++k) {
+    planned = plan::GraspAfter(planned, plan::StepOf(plan_, k));
+  }
+  double off = 0;
+  for (const plan::FingerState& finger : step.snapshot.fingers) {
+    const plan::FingerContact* held = plan::FindFinger(planned, finger.finger);
+    if (held == nullptr) continue;
+    off = std::max(off, (finger.contact_W - plan_.scale * held->contact.p).norm());
+  }
+  return off;
 }
 
 plan::Snapshot EntryReplay::SnapshotNow() const {

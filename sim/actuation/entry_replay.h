@@ -52,6 +52,8 @@ class EntryReplay {
   /// Return the present holding fingers with a grasp force.
   [[nodiscard]] Hold HeldWith(double grasp_force) const { return {holding_, grasp_force}; }
   void Describe(StepReplay& step) const;
+  /// Return the largest distance of a contact of the step's snapshot from its place in the plan.
+  [[nodiscard]] double ContactDeviation(const StepReplay& step) const;
   /// Return the state in the object's frame, for images.
   [[nodiscard]] plan::Snapshot SnapshotNow() const;
   void Tick();

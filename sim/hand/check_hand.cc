@@ -10,6 +10,7 @@
 #include "planner/plan/plan.h"
 #include "sim/hand/hand_body.h"
 #include "sim/hand/hand_finding.h"
+#include "sim/hand/rolling_check.h"
 
 namespace regrasp::sim {
 namespace {
@@ -354,13 +355,28 @@ MaybeFault Checker::CheckPath(const NamedPath& path, std::size_t index, const In
 MaybeFault Checker::CheckMove(const plan::Move& move) {
   if (auto fault = CheckContinues(move.path)) return fault;
   const NamedPath path{move.path, "path"};
+  const bool rolls = !move.contacts.empty();
+  const auto grasp_at = [&](std::size_t i) -> const plan::FingerGrasp& {
+    return rolls ? move.contacts[i] : holding_;
+  };
+  RollingCheck rolling(body_, triangles_, plan_.scale, move);
   for (std::size_t i = 0; i < move.path.size(); ++i) {
+    const plan::FingerGrasp& grasp = grasp_at(i);
+    const HandState& state = move.path[i];
+    if (!plan::HaveSameFingers(grasp, holding_)) {
+      return NoSuchPath("the contacts " + path.InState(i) + " are not those of all holding fingers",
+                        state_);
+    }
     if (auto fault = CheckJoints(path, i)) return fault;
     const double tolerance = i + 1 == move.path.size() ? kTipAtRest : kTipInMove;
-    if (auto fault = CheckTips(holding_, move.path[i], tolerance, path.InState(i))) return fault;
-    if (i == 0) continue;
-    const Instant from{move.path[i - 1], holding_};
-    if (auto fault = CheckPath(path, i, from, {move.path[i], holding_}, {})) return fault;
+    if (auto fault = CheckTips(grasp, state, tolerance, path.InState(i))) return fault;
+    if (i > 0) {
+      const Instant from{move.path[i - 1], grasp_at(i - 1)};
+      if (auto fault = CheckPath(path, i, from, {state, grasp}, {})) return fault;
+    }
+    if (!rolls) continue;
+    const std::string after = i == 0 ? "" : path.After(i - 1);
+    if (auto fault = rolling.Check(i, path.InState(i), after)) return fault;
   }
   state_ = move.path.back();
   return std::nullopt;
@@ -460,21 +476,6 @@ MaybeFault Checker::CheckStep(const plan::Step& step) {
   return fault;
 }
 
-/// Describe the difference of two hands by their names, or by their digests if the names are equal.
-std::string OtherHand(const kinematics::HandModel& found, const plan::HandUse& expected) {
-  constexpr std::size_t kShown = 12;
-  const auto describe = [](const std::string& name, const std::string& file) {
-    return file + " (hand " + name + ")";
-  };
-  if (found.name != expected.name || found.file != expected.file) {
-    return "the plan is for another hand, expected " + describe(expected.name, expected.file) +
-           ", found " + describe(found.name, found.file);
-  }
-  return "the plan is for another version of " + describe(found.name, found.file) +
-         ": the hand file, its model or a mesh differs, expected SHA-256 " +
-         expected.sha256.substr(0, kShown) + "…, found " + found.sha256.substr(0, kShown) + "…";
-}
-
 }  // namespace
 
 std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
@@ -484,7 +485,7 @@ std::vector<plan::HandFault> CheckHand(const kinematics::HandFile& file,
     throw InputError("--hand cannot be used with a plan without a hand");
   }
   if (plan.hand->sha256 != file.hand.sha256) {
-    throw InputError("--hand: " + OtherHand(file.hand, *plan.hand));
+    throw InputError("--hand: " + OtherHandText(file.hand, *plan.hand));
   }
   HandBody body(file);
   return Checker(body, solid, plan, options).Check();

@@ -308,6 +308,10 @@ Vector3d HandBody::TipCentre(FingerIndex finger) const {
   return impl_->BodyPose(impl_->tip_bodies[finger]) * impl_->description.tips[finger].centre;
 }
 
+Eigen::Matrix3d HandBody::TipTurn(FingerIndex finger) const {
+  return impl_->BodyPose(impl_->tip_bodies[finger]).linear();
+}
+
 double HandBody::MotionBound(int part, const std::vector<std::vector<double>>& from,
                              const std::vector<std::vector<double>>& to) const {
   double bound = 0;

@@ -93,6 +93,8 @@ class HandBody {
   [[nodiscard]] Eigen::Vector3d JointAnchor(FingerIndex finger, int joint) const;
   /// Return the centre of a fingertip sphere.
   [[nodiscard]] Eigen::Vector3d TipCentre(FingerIndex finger) const;
+  /// Return the orientation of the body that has the fingertip, in the palm's frame.
+  [[nodiscard]] Eigen::Matrix3d TipTurn(FingerIndex finger) const;
   /// Return a bound on the motion of all points of a part, metres, while the joints move linearly.
   [[nodiscard]] double MotionBound(int part, const std::vector<std::vector<double>>& from,
                                    const std::vector<std::vector<double>>& to) const;

@@ -161,6 +161,20 @@ std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger) {
   return "finger " + std::to_string(finger) + " (" + hand.fingers[finger].name + ")";
 }
 
+std::string OtherHandText(const kinematics::HandModel& found, const plan::HandUse& expected) {
+  constexpr std::size_t kShown = 12;
+  const auto describe = [](const std::string& name, const std::string& file) {
+    return file + " (hand " + name + ")";
+  };
+  if (found.name != expected.name || found.file != expected.file) {
+    return "the plan is for another hand, expected " + describe(expected.name, expected.file) +
+           ", found " + describe(found.name, found.file);
+  }
+  return "the plan is for another version of " + describe(found.name, found.file) +
+         ": the hand file, its model or a mesh differs, expected SHA-256 " +
+         expected.sha256.substr(0, kShown) + "…, found " + found.sha256.substr(0, kShown) + "…";
+}
+
 HandFinding NoSuchPath(const std::string& what, const HandState& state) {
   HandFinding finding{Reason::kHandJumps, what, {}};
   finding.fault.hand.emplace().state = state;

@@ -22,6 +22,10 @@ struct HandFinding {
 /// Return "finger 1 (middle)".
 [[nodiscard]] std::string FingerText(const kinematics::HandModel& hand, FingerIndex finger);
 
+/// Describe the difference of two hands by their names, or by their digests if the names are equal.
+[[nodiscard]] std::string OtherHandText(const kinematics::HandModel& found,
+                                        const plan::HandUse& expected);
+
 /// Report a path or state that does not match the hand.
 /// @param state  state of the hand before it.
 [[nodiscard]] HandFinding NoSuchPath(const std::string& what, const plan::HandState& state);

@@ -56,8 +56,11 @@ struct HandMeasures {
   double off_rad = 0;     ///< rotation off the planned orientation
   double rest_off_m = 0;  ///< deviation in the static grasp after the step
   double rest_off_rad = 0;
-  double slip_m = 0;           ///< largest slide of a holding fingertip
-  double roll_m = 0;           ///< largest travel of a contact on the object while its finger holds
+  double slip_m = 0;  ///< largest slide of a holding fingertip
+  double roll_m = 0;  ///< largest travel of a contact on the object while its finger holds
+  /// Largest distance of a contact in the static grasp from its place in the plan. Without rolling
+  /// in the plan it includes the way that contacts roll.
+  double contact_off_m = 0;
   double torque_share = 0;     ///< largest torque of an actuator over its limit
   double torque_Nm = 0;        ///< largest torque about an independent joint
   double control_limit_s = 0;  ///< longest total time of a control at an end of its range

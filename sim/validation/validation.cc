@@ -219,6 +219,11 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
     settings.hand = options.hand;
     static_cast<sim::ReplayConditions&>(*settings.hand) = options.replay;
     settings.hand->engine = options.replay.engine;
+  } else if (plan::HasRolling(plan)) {
+    throw InputError(
+        "plan: fingertips roll in its in-hand motions, which only a hand executes; "
+        "help: pass --hand " +
+        plan.hand->file + ", without --replay points");
   }
   return settings;
 }
