@@ -218,6 +218,11 @@ constexpr int kFewestBesideSliding = 3;
 constexpr double kSupportFactor = 2;
 constexpr double kSupportMargin = 0.003;
 
+/// Number of gaits, from different random streams, whose contacts are rolled, and the bits that the
+/// streams are apart. FindExecutableGait uses lower ones, goal lists higher ones.
+constexpr int kRollingDraws = 4;
+constexpr int kRollingShift = 40;
+
 /// Search configuration for one set of robustness margins, or for none.
 struct SearchConfig {
   double quality;
@@ -364,10 +369,17 @@ GaitResult FindGait(const GaitRequest& request) {
     for (const auto& config : configs) {
       terms.push_back({config->setup, config->memory, config->simulate});
     }
-    MultiStartSearch search(asked, std::move(terms), ends);
-    std::optional<Gait> gait = search.Search();
-    if (gait) return Planned(configs.front()->setup, asked, rolled_on, *gait);
-    return {std::nullopt, FailureSummary(asked, search.counts())};
+    FoundGait found;
+    GaitRequest drawn = asked;
+    for (int draw = 0; draw < (asked.rolls ? kRollingDraws : 1); ++draw) {
+      drawn.seed = asked.seed + (static_cast<std::uint64_t>(draw) << kRollingShift);
+      MultiStartSearch search(drawn, terms, ends);
+      const std::optional<Gait> gait = search.Search();
+      if (!gait) return {std::nullopt, FailureSummary(asked, search.counts())};
+      found = Planned(configs.front()->setup, asked, rolled_on, *gait);
+      if (found.gait) break;
+    }
+    return found;
   };
   SimulatedGait simulated;
   if (request.robustness == RobustnessLevel::kNone) {

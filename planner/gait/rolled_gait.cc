@@ -133,17 +133,23 @@ class ContactRoller {
     contacts_ = std::move(contacts);
     frame_ = std::move(next);
     const plan::FingerGrasp grasp = GraspNow();
-    motion::GraspMotion motion;
-    for (std::size_t i = 0; i < grasp.size(); ++i) {
-      motion.emplace_back(grasp_before[i].contact, grasp[i].contact);
-    }
-    if (!motion::FindMotionProof(motion, 3, friction_angle_, kShortestRolledPiece)) {
+    if (!IsForceClosure(grasp_before, grasp)) {
       reason_ = Reason::kNotForceClosure;
       return false;
     }
     rolled.path.push_back(frame_);
     rolled.rolled.push_back(grasp);
     return true;
+  }
+
+  /// Return whether force closure is proved on the way between two grasps of the same fingers.
+  [[nodiscard]] bool IsForceClosure(const plan::FingerGrasp& from,
+                                    const plan::FingerGrasp& to) const {
+    motion::GraspMotion motion;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      motion.emplace_back(from[i].contact, to[i].contact);
+    }
+    return motion::FindMotionProof(motion, 3, friction_angle_, kShortestRolledPiece).has_value();
   }
 
   /// Let a fingertip roll while the object moves to the pose of `next`.
@@ -164,7 +170,8 @@ class ContactRoller {
       const Eigen::Matrix3d turn =
           FingertipOrientation(chain, *joints, next.pose) * turn_now.transpose();
       const SurfacePoint again = Rolled(contact, turn, chain.tip.radius, surface_);
-      const double off = (again.p - rolled.p).norm() + chain.tip.radius * (again.n - rolled.n).norm();
+      const double off =
+          (again.p - rolled.p).norm() + chain.tip.radius * (again.n - rolled.n).norm();
       if (off < kSameContact) {
         contact = rolled;
         return true;
@@ -204,23 +211,23 @@ class ContactRoller {
   [[nodiscard]] std::optional<PlanSegment> Place(const PlanSegment& segment) {
     const FingerIndex finger = segment.finger;
     const SurfacePoint& contact = setup_.points[segment.contact];
-    const auto path = FindPathToContact(
-        setup_.scene, setup_.inverse[finger], finger, frame_.configurations[finger],
-        TargetAt(setup_.scene.finger(finger), contact, frame_.pose),
-        segment.path.back().configurations[finger], AllExcept(setup_.scene, finger, frame_),
-        random_);
+    const auto path = FindPathToContact(setup_.scene, setup_.inverse[finger], finger,
+                                        frame_.configurations[finger],
+                                        TargetAt(setup_.scene.finger(finger), contact, frame_.pose),
+                                        segment.path.back().configurations[finger],
+                                        AllExcept(setup_.scene, finger, frame_), random_);
     if (!path) return Fail(Reason::kHandCollides);
     Hold(finger, contact);
+    if (!IsForceClosure(GraspNow(), GraspNow())) return Fail(Reason::kNotForceClosure);
     return Along(segment, *path);
   }
 
   [[nodiscard]] std::optional<PlanSegment> Release(const PlanSegment& segment) {
     const FingerIndex finger = segment.finger;
     const Surroundings around = AllExcept(setup_.scene, finger, frame_);
-    auto path = FindLiftPath(
-        setup_.scene, setup_.inverse[finger], finger,
-        TargetAt(setup_.scene.finger(finger), *contacts_[finger], frame_.pose),
-        frame_.configurations[finger], around);
+    auto path = FindLiftPath(setup_.scene, setup_.inverse[finger], finger,
+                             TargetAt(setup_.scene.finger(finger), *contacts_[finger], frame_.pose),
+                             frame_.configurations[finger], around);
     if (!path) return Fail(Reason::kHandCollides);
     const auto back = FindFreePath(setup_.scene, finger, path->back(),
                                    segment.path.back().configurations[finger], around, random_);
@@ -228,6 +235,7 @@ class ContactRoller {
     path->insert(path->end(), back->begin() + 1, back->end());
     contacts_[finger].reset();
     touching_[finger] = TipContact::kFree;
+    if (!IsForceClosure(GraspNow(), GraspNow())) return Fail(Reason::kNotForceClosure);
     return Along(segment, *path);
   }
 

@@ -20,11 +20,11 @@ struct RolledGait {
 
 /// Let the fingertips of a gait roll without slipping in its in-hand motions.
 ///
-/// A gait of the search keeps every contact at a fixed point of the object while the object rotates.
-/// A real fingertip rolls there, by its radius times the rotation, up to centimetres. This function
-/// repeats the gait with rolling contacts: the object moves as before, the joints follow the
-/// contacts, and fingers leave from where they have rolled to. Placed fingers reach the contacts of
-/// the gait.
+/// A gait of the search keeps every contact at a fixed point of the object while the object
+/// rotates. A real fingertip rolls there, by its radius times the rotation, up to centimetres. This
+/// function repeats the gait with rolling contacts: the object moves as before, the joints follow
+/// the contacts, and fingers leave from where they have rolled to. Placed fingers reach the
+/// contacts of the gait.
 ///
 /// In a step of the object by at most 0.02 rad and 1 mm, a contact rolls by Δθ × (r n) and remains
 /// on the surface, across edges (Montana 1988 for a sphere). Δθ is the rotation of the fingertip's
@@ -42,8 +42,7 @@ struct RolledGait {
 /// @returns no gait if a finger cannot follow (kTipOffContact), something is too close
 ///     (kHandCollides), force closure is lost (kNotForceClosure), or fingers slide after a contact
 ///     has rolled (kDiscontinuous).
-[[nodiscard]] RolledGait RollContacts(const HandSetup& setup,
-                                      const collision::BallContact& surface, double friction_angle,
-                                      const Gait& gait, RandomStream random);
+[[nodiscard]] RolledGait RollContacts(const HandSetup& setup, const collision::BallContact& surface,
+                                      double friction_angle, const Gait& gait, RandomStream random);
 
 }  // namespace regrasp::gait

@@ -99,19 +99,20 @@ std::string Describe(const plan::Align& step, Names names) {
 }
 
 /// Return "move: rotate the object by 38°", or "move: translate the object by 2.1 mm" if it does
-/// not rotate.
+/// not rotate. Says if fingertips roll.
 std::string Describe(const plan::Move& step, Names /*names*/) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;
   const Eigen::Isometry3d& to = step.path.back().pose;
   const double angle = object::RotationInBody(from.linear(), to.linear()).angle();
+  const std::string roll = step.contacts.empty() ? "" : ", fingertips roll";
   if (angle >= kMinRotation) {
-    return "move: rotate the object by " + FormatDegrees(Degrees(angle));
+    return "move: rotate the object by " + FormatDegrees(Degrees(angle)) + roll;
   }
   const double translation = (to.translation() - from.translation()).norm();
   return translation < kMinTranslation
              ? "move: free fingers"
-             : "move: translate the object by " + FormatLength(translation, kDigits);
+             : "move: translate the object by " + FormatLength(translation, kDigits) + roll;
 }
 
 /// Return the motion of the fingers, for example "move 1 by 12 mm, 3 by 0.8 mm together along the

@@ -54,21 +54,23 @@ std::optional<HandFinding> RollingCheck::FindContactBeside(std::size_t state,
                                                            const std::string& when) {
   for (const plan::FingerContact& held : move_.contacts[state]) {
     const double radius = body_.hand().fingers[held.finger].tip.radius;
-    const ConvexBody centre = MakeConvexBody({scale_ * held.contact.p - radius * held.contact.n}, 0);
-    bool touches = false;
+    const Vector3d point = scale_ * held.contact.p;
+    const ConvexBody contact = MakeConvexBody({point}, 0);
+    const ConvexBody centre = MakeConvexBody({point - radius * held.contact.n}, 0);
+    const bool touches = std::ranges::any_of(surface_, [&](const ConvexBody& triangle) {
+      return !HaveGap(contact, triangle, kTouchTolerance);
+    });
     double deepest = 0;
     for (const ConvexBody& triangle : surface_) {
-      if (HaveGap(centre, triangle, radius + kTouchTolerance)) continue;
-      touches = true;
       if (HaveGap(centre, triangle, radius - kTouchTolerance)) continue;
       deepest = std::max(deepest, radius - NearestOf(centre, {&triangle, 1}).gap);
     }
     if (touches && deepest < kTouchTolerance) continue;
-    const std::string what =
-        touches ? FormatLength(deepest) + " inside the surface beside its contact"
-                : "not on the surface";
+    const std::string what = touches
+                                 ? FormatLength(deepest) + " inside the surface beside its contact"
+                                 : "not on the surface";
     return FindingAtTip(body_, move_.path[state], held.finger, plan::Reason::kTipOffContact,
-                        "the sphere of the fingertip of " + FingerText(body_.hand(), held.finger) +
+                        "the rolling fingertip of " + FingerText(body_.hand(), held.finger) +
                             " is " + what + " " + when,
                         deepest);
   }

@@ -114,8 +114,7 @@ TEST_F(RolledGaitTest, WithoutFrictionNothingRolls) {
   EXPECT_LT(rolled.segments, std::ssize(found_.gait->segments));
 }
 
-/// A motion out of the reach of the fingers cannot be followed.
-TEST_F(RolledGaitTest, AFingerThatCannotFollowIsNamed) {
+TEST_F(RolledGaitTest, AMotionOutOfReachFails) {
   ASSERT_TRUE(found_.gait) << found_.message;
   Gait gait{found_.gait->initial, found_.gait->start, {}};
   Keyframe away = gait.start;
@@ -123,7 +122,27 @@ TEST_F(RolledGaitTest, AFingerThatCannotFollowIsNamed) {
   gait.segments = {{PlanSegment::Kind::kMove, {}, kNone, {gait.start, away}}};
   const RolledGait rolled = Roll(gait);
   EXPECT_FALSE(rolled.gait);
-  EXPECT_EQ(rolled.reason, plan::Reason::kTipOffContact);
+  EXPECT_EQ(rolled.segments, 0);
+  EXPECT_TRUE(rolled.reason == plan::Reason::kTipOffContact ||
+              rolled.reason == plan::Reason::kHandCollides);
+}
+
+TEST_F(RolledGaitTest, AGraspThatLosesForceClosureWhenAFingerLeavesFails) {
+  ASSERT_TRUE(found_.gait) << found_.message;
+  // A finger of three leaves, and the other two do not hold the cube.
+  Gait gait{found_.gait->initial, found_.gait->start, {}};
+  while (CountHoldingFingers(gait.initial) > 3)
+    *std::ranges::find_if(gait.initial, [](int p) { return p != kNone; }) = kNone;
+  const auto holding = std::ranges::find_if(gait.initial, [](int p) { return p != kNone; });
+  const FingerIndex finger(static_cast<int>(holding - gait.initial.begin()));
+  Keyframe idle = gait.start;
+  for (const PlanSegment& segment : found_.gait->segments) {
+    if (segment.kind != PlanSegment::Kind::kRelease || segment.finger != finger) continue;
+    idle.configurations[finger] = segment.path.back().configurations[finger];
+  }
+  gait.segments = {{PlanSegment::Kind::kRelease, finger, *holding, {gait.start, idle}}};
+  const RolledGait rolled = Roll(gait);
+  EXPECT_FALSE(rolled.gait);
 }
 
 TEST_F(RolledGaitTest, TheSameInputGivesTheSameBits) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
@@ -37,7 +38,7 @@ const plan::Plan& RollingPlan() {
     request.solid = &RolledCube();
     request.scale = 0.8;
     request.criteria.friction_angle = std::atan(0.8);
-    request.turn = {Vector3d::UnitZ(), Radians(150)};
+    request.turn = {Vector3d::UnitZ(), Radians(250)};
     request.robustness = gait::RobustnessLevel::kRequired;
     request.rolls = true;
     const gait::GaitResult found = gait::FindGait(request);
@@ -131,9 +132,34 @@ TEST(RollingCheckTest, ATiltedNormalIsAFault) {
   const auto faults = FaultsOf(plan);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].reason, Reason::kTipOffContact);
-  EXPECT_THAT(faults[0].detail, HasSubstr("beside its contact"));
+  EXPECT_THAT(faults[0].detail, HasSubstr("not on the surface"));
   // The analytic check, which does not know the radius, finds it too.
   EXPECT_FALSE(plan::CheckPlan(RolledCube(), plan, {}).passed());
+}
+
+/// The contact is on the surface, but the sphere is inside a ridge of the surface beside it.
+TEST(RollingCheckTest, AFingertipInsideTheSurfaceBesideItsContactIsAFault) {
+  plan::Plan plan = RollingPlan();
+  const plan::Move& move = FirstRolling(plan);
+  const kinematics::HandFile file = kinematics::ReadHandFile(kRing);
+  HandBody body(file);
+  std::vector<ConvexBody> surface;
+  for (const auto& corners : RolledCube().triangles()) {
+    std::vector<Vector3d> points;
+    for (const int corner : corners) points.push_back(plan.scale * RolledCube().vertices()[corner]);
+    surface.push_back(MakeConvexBody(std::move(points), 0));
+  }
+  EXPECT_FALSE(RollingCheck(body, surface, plan.scale, move).Check(0, "at first", ""));
+  const plan::FingerContact& held = move.contacts.front().front();
+  const double radius = file.hand.fingers[held.finger].tip.radius;
+  const Vector3d aside = held.contact.n.unitOrthogonal();
+  const Vector3d side =
+      plan.scale * held.contact.p - radius * held.contact.n + 0.8 * radius * aside;
+  surface.push_back(MakeConvexBody({side, side + 1e-4 * aside, side + 1e-4 * held.contact.n}, 0));
+  const auto finding = RollingCheck(body, surface, plan.scale, move).Check(0, "at first", "");
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->reason, Reason::kTipOffContact);
+  EXPECT_THAT(finding->detail, HasSubstr("beside its contact"));
 }
 
 TEST(RollingCheckTest, AMissingFingerIsAFault) {
@@ -163,9 +189,35 @@ TEST(RollingCheckTest, GraspsOnTheWayMustBeForceClosure) {
 }
 
 TEST(RollingCheckTest, TheFileKeepsContacts) {
-  const plan::Plan& plan = RollingPlan();
+  plan::Plan plan = RollingPlan();
+  plan.object_sha256 = std::string(64, 'a');
   const std::string text = plan::FormatPlan(plan);
-  EXPECT_EQ(plan::FormatPlan(plan::ParsePlan(text, "plan")), text);
+  const plan::Plan read = plan::ParsePlan(text, "plan");
+  ASSERT_EQ(read.steps.size(), plan.steps.size());
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+    const auto* move = std::get_if<plan::Move>(&plan.steps[i]);
+    if (move == nullptr) continue;
+    const auto& same = std::get<plan::Move>(read.steps[i]);
+    ASSERT_EQ(same.contacts.size(), move->contacts.size());
+    for (std::size_t k = 0; k < same.contacts.size(); ++k) {
+      ASSERT_TRUE(plan::HaveSameFingers(same.contacts[k], move->contacts[k]));
+      EXPECT_TRUE(plan::AreSameGrasp(plan::ContactsOf(same.contacts[k]),
+                                     plan::ContactsOf(move->contacts[k]), 1e-12));
+    }
+  }
+}
+
+TEST(RollingCheckTest, AFileWithAGraspForOnlySomeStatesIsBadInput) {
+  plan::Plan plan = RollingPlan();
+  plan.object_sha256 = std::string(64, 'a');
+  FirstRolling(plan).contacts.pop_back();
+  EXPECT_THAT([&] { (void)plan::ParsePlan(plan::FormatPlan(plan), "plan"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("expected one grasp for each of the")));
+  plan = RollingPlan();
+  plan.object_sha256 = std::string(64, 'a');
+  plan.hand.reset();
+  EXPECT_THAT([&] { (void)plan::ParsePlan(plan::FormatPlan(plan), "plan"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("require the member hand")));
 }
 
 }  // namespace rolling_check_test
