@@ -27,6 +27,14 @@ void ProjectAll(const object::Object& object, FingerGrasp& grasp) {
   for (FingerContact& held : grasp) held.contact = ProjectContact(object, held.contact).contact;
 }
 
+/// Set the faces of rolled contacts. Points and normals stay as they are, because the fingertips
+/// are at them to a micrometre. Contacts on edges have no face.
+void FindFaces(const object::Object& object, FingerGrasp& grasp) {
+  for (FingerContact& held : grasp) {
+    held.contact.face = ProjectContact(object, held.contact).contact.face;
+  }
+}
+
 bool IsUnit(const Eigen::Vector3d& normal) {
   return std::abs(normal.norm() - 1) <= kNormalLengthTolerance;
 }
@@ -128,8 +136,7 @@ Plan ProjectPlan(const object::Object& object, const Plan& plan) {
     } else if (auto* align = std::get_if<Align>(&step)) {
       ProjectAlign(object, *align);
     } else {
-      // A rolled contact on an edge has no face and stays as it is.
-      for (FingerGrasp& rolled : std::get<Move>(step).contacts) ProjectAll(object, rolled);
+      for (FingerGrasp& rolled : std::get<Move>(step).contacts) FindFaces(object, rolled);
     }
   }
   for (grasp::Contact& contact : projected.goal) contact = ProjectContact(object, contact).contact;

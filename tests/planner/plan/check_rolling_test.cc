@@ -13,8 +13,8 @@ namespace check_rolling_test {
 
 using Eigen::Vector3d;
 
-/// Return a plan on MakeCube() whose only step is an in-hand motion. Fingers 0 to 3 hold the middles
-/// of ±x and ±z, and finger 4 rolls on +y through the given contacts.
+/// Return a plan on MakeCube() whose only step is an in-hand motion. Fingers 0 to 3 hold the
+/// middles of ±x and ±z, and finger 4 rolls on +y through the given contacts.
 Plan RollOnTop(const std::vector<grasp::Contact>& contacts) {
   Plan plan = EmptyPlan(3, 5, 30);
   Move move;
@@ -51,7 +51,8 @@ TEST(CheckRolling, ContactsMoveOnFacesAndOverEdges) {
   EXPECT_EQ(ReasonOf(RollOnTop({kStart, {{0, 1, 0.8}, {0, -1, 0}}})), Reason::kNone);
   EXPECT_EQ(ReasonOf(RollOnTop({kStart, OnEdge(0), OnEdge(45)})), Reason::kNone);
   const grasp::Contact beyond = {{0, 0.8, 1}, {0, 0, -1}};
-  EXPECT_EQ(ReasonOf(RollOnTop({kStart, OnEdge(0), OnEdge(45), OnEdge(90), beyond})), Reason::kNone);
+  EXPECT_EQ(ReasonOf(RollOnTop({kStart, OnEdge(0), OnEdge(45), OnEdge(90), beyond})),
+            Reason::kNone);
 }
 
 TEST(CheckRolling, ContactsLeaveNeitherTheSurfaceNorItsNormals) {
