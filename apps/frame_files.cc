@@ -51,7 +51,7 @@ std::vector<report::PagePicture> WriteFrames(const object::Object& object, const
     render::WritePng(folder / name, frame.image);
     step.frame = name;
     report::PagePicture& picture = pictures[frame.entry];
-    picture = MakePicture(frame.image, width);
+    picture = MakePicture(frame.page_image, width);
     picture.own_view = frame.own_view;
   };
   render::WritePng(folder / kOverviewName, report::DrawFrames(object, plan, options, report, take));
@@ -70,8 +70,11 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
   for (std::size_t i = 0; i < files.size(); ++i) {
     WriteFile(files[i].path, moving.bytes[i], Durability::kCached);
   }
-  return {std::move(moving.bytes.front()), moving.width, moving.height,
-          render::MediaType(formats.front())};
+  // A video has controls.
+  const auto video = std::ranges::find(formats, render::AnimationFormat::kMp4);
+  const auto shown = video == formats.end() ? 0 : video - formats.begin();
+  return {std::move(moving.bytes[shown]), moving.width, moving.height,
+          render::MediaType(formats[shown])};
 }
 
 }  // namespace regrasp::apps

@@ -50,7 +50,7 @@ struct MovingFile {
 /// @param options  drawing options with the size of the animations.
 /// @param samples  recorded states of the hand, ascending in time; may be empty.
 /// @param files    files to write, at least one.
-/// @returns the first animation.
+/// @returns the first video, or the first animation without a video.
 /// @throws EnvironmentError  as WriteFrames.
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
                                    const report::DrawingOptions& options,

@@ -156,7 +156,7 @@ class DrawingCount {
 };
 
 /// Write the animations.
-/// @returns animation for the HTML report: replay.webp, or the video if only that is made.
+/// @returns animation for the HTML report: the video, or replay.webp.
 report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions frame,
                             const ValidateTask& task, const report::HandPicture* hand,
                             const ReplayRecord& record, const std::filesystem::path& folder,

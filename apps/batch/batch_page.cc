@@ -130,7 +130,8 @@ Element Row(const PlanOutcome& plan) {
           : Element("td", {}, plan.name));
   row.Add(Element("td", {{"class", "outcome"}}, VerdictWord(plan)));
   row.Add(TextCell(failure ? failure->reason : ""));
-  row.Add(TextCell(FailureText(plan)));
+  const std::string failed = FailureText(plan);
+  row.Add(failed.empty() ? TextCell(failed) : report::WithOptions(Element("td"), failed));
   row.Add(NumberOrDash(margin, margin ? FormatDegrees(*margin) + " in " + weakest : ""));
   row.Add(NumberOrDash(steps, steps ? FormatShort(*steps) : ""));
   row.Add(NumberOrDash(report.friction_angle_deg,

@@ -144,6 +144,17 @@ std::vector<std::pair<int, int>> RemoveStrayCreases(
 /// Triangles at each edge, by the indices of its ends.
 using EdgeTriangles = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 
+/// Return whether the second triangle at an edge is below the plane of the first.
+bool IsConvex(const IndexedMesh& mesh, const std::pair<int, int>& edge,
+              const std::vector<std::size_t>& triangles) {
+  for (const int vertex : mesh.triangles[triangles[1]]) {
+    if (vertex == edge.first || vertex == edge.second) continue;
+    const Vector3d above = mesh.vertices[vertex] - mesh.vertices[edge.first];
+    return mesh.AreaNormal(triangles[0]).dot(above) < 0;
+  }
+  return false;
+}
+
 EdgeTriangles TrianglesAtEdges(const IndexedMesh& mesh) {
   EdgeTriangles triangles_of_edge;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -186,7 +197,8 @@ void AddEdges(const IndexedMesh& mesh, const EdgeTriangles& edges,
   for (const auto& [edge, triangles] : edges) {
     const double angle = AngleAt(triangles, normals);
     if (angle > least) creases.push_back(edge);
-    if (angle > object::kCoplanarAngle && triangles.size() == 2) {
+    if (angle > object::kCoplanarAngle && triangles.size() == 2 &&
+        IsConvex(mesh, edge, triangles)) {
       shape.folds.push_back({ends(edge), {normals[triangles[0]], normals[triangles[1]]}});
     }
   }

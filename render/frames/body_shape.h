@@ -21,7 +21,8 @@ enum class EdgeStyle {
 /// Crease angle of the default options, radians. Smaller bends are shaded smoothly.
 inline constexpr double kDefaultCreaseAngle = Radians(40);
 
-/// An edge between two triangles. It is part of the outline if exactly one of them faces the eye.
+/// A convex edge between two triangles. It is part of the outline if exactly one of them faces the
+/// eye. The solid hides a concave edge from all directions in which this holds.
 struct Fold {
   std::array<Eigen::Vector3d, 2> edge;
   std::array<Eigen::Vector3d, 2> normals;  ///< outward unit normals of the two triangles

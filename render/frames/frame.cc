@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "planner/sets/polyhedron/face_part.h"
 #include "render/frames/annotation.h"
@@ -82,14 +84,15 @@ class FrameRenderer::Impl {
       : model_(object, scale, friction_angle, snapshots, options),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(model_, snapshots)),
-        canvas_(model_.CanvasMeshes(), width(), height(), options.supersampling) {}
+        canvas_(model_.CanvasMeshes(1 / cameras_.common.PixelsPerUnit(Vector3d::Zero())), width(),
+                height(), options.supersampling) {}
 
   [[nodiscard]] int width() const { return cameras_.common.width; }
   [[nodiscard]] int height() const { return cameras_.common.height; }
   [[nodiscard]] bool HasOwnView(int index) const { return cameras_.own.contains(index); }
 
-  Image Render(const plan::Snapshot& snapshot, const FrameText& text, const FaultMarks* fault,
-               int view) {
+  std::vector<Image> Render(const plan::Snapshot& snapshot, std::span<const FrameText> texts,
+                            const FaultMarks* fault, int view) {
     const Camera& camera = HasOwnView(view) ? cameras_.own.at(view) : cameras_.common;
     std::vector<FingerGlyph> fingers = model_.GlyphsOf(snapshot, model_.options.animated);
     for (FingerGlyph& glyph : fingers) glyph.force_color = style_.ground.force;
@@ -103,12 +106,22 @@ class FrameRenderer::Impl {
     if (model_.options.show_focus) AddFocus(snapshot, drawing.shapes);
     if (model_.options.clusters) AddRepresentatives(snapshot, drawing.shapes);
     const auto draw = [&](Color paper) {
-      const CairoImage image(canvas_.Draw(camera, drawing, paper));
-      Annotate(image, camera, snapshot, fingers, arrow, text, fault, paper);
-      return image.ToImage();
+      const Image drawn = canvas_.Draw(camera, drawing, paper);
+      std::vector<Image> images;
+      for (const FrameText& text : texts) {
+        const CairoImage image(drawn);
+        Annotate(image, camera, snapshot, fingers, arrow, text, fault, paper);
+        images.push_back(image.ToImage());
+      }
+      return images;
     };
     if (model_.options.background != Background::kTransparent) return draw(style_.ground.paper);
-    return MakeTransparent(draw(kWhite), draw(kBlack));
+    std::vector<Image> images;
+    const std::vector<Image> on_white = draw(kWhite), on_black = draw(kBlack);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      images.push_back(MakeTransparent(on_white[i], on_black[i]));
+    }
+    return images;
   }
 
  private:
@@ -314,7 +327,13 @@ bool FrameRenderer::HasOwnView(int index) const { return impl_->HasOwnView(index
 
 Image FrameRenderer::Render(const plan::Snapshot& snapshot, const FrameText& text,
                             const FaultMarks* fault, int view) {
-  return impl_->Render(snapshot, text, fault, view);
+  return std::move(impl_->Render(snapshot, {&text, 1}, fault, view).front());
+}
+
+std::vector<Image> FrameRenderer::RenderWithTexts(const plan::Snapshot& snapshot,
+                                                  std::span<const FrameText> texts,
+                                                  const FaultMarks* fault, int view) {
+  return impl_->Render(snapshot, texts, fault, view);
 }
 
 }  // namespace regrasp::render

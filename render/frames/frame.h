@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,12 @@ class FrameRenderer {
   ///                 the common camera.
   [[nodiscard]] Image Render(const plan::Snapshot& snapshot, const FrameText& text = {},
                              const FaultMarks* fault = nullptr, int view = kCommonView);
+  /// Draw a frame with several texts. It takes little longer than with one.
+  /// @returns an image for each text.
+  [[nodiscard]] std::vector<Image> RenderWithTexts(const plan::Snapshot& snapshot,
+                                                   std::span<const FrameText> texts,
+                                                   const FaultMarks* fault = nullptr,
+                                                   int view = kCommonView);
 
  private:
   class Impl;

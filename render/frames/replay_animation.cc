@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <future>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -13,24 +11,13 @@ namespace regrasp::render {
 
 void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tasks, int workers,
                    const std::function<void(int index, const Image& image)>& take) {
-  const auto count = static_cast<int>(tasks.size());
-  const int ahead = std::min(workers, count);
-  std::vector<FrameRenderer> renderers(ahead, renderer);
-  std::deque<std::future<Image>> pending;
-  // The next task of a renderer starts after its previous one.
-  const auto start = [&](int index) {
-    pending.push_back(std::async(std::launch::async, [&, index] {
-      const FrameTask& task = tasks[index];
-      return renderers[index % ahead].Render(*task.snapshot, task.text, task.fault, task.view);
-    }));
-  };
-  for (int index = 0; index < ahead; ++index) start(index);
-  for (int index = 0; index < count; ++index) {
-    const Image image = pending.front().get();
-    pending.pop_front();
-    if (index + ahead < count) start(index + ahead);
-    take(index, image);
-  }
+  DrawInOrder(
+      renderer, static_cast<int>(tasks.size()), workers,
+      [&tasks](FrameRenderer& drawer, int index) {
+        const FrameTask& task = tasks[index];
+        return drawer.Render(*task.snapshot, task.text, task.fault, task.view);
+      },
+      take);
 }
 
 namespace {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <deque>
 #include <functional>
+#include <future>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "planner/plan/projection.h"
@@ -19,12 +23,38 @@ struct FrameTask {
   int view = kCommonView;
 };
 
-/// Draw frames in several threads, each with a copy of the renderer, and pass them on in order.
+/// Draw in several threads, each with a copy of the renderer, and pass the results on in order.
 ///
-/// `take` is called in the calling thread while further frames are drawn. Frames do not depend on
+/// `take` is called in the calling thread while further results are drawn. Results do not depend on
 /// the number of workers.
+/// @param count    number of results.
 /// @param workers  number of threads, ≥ 1.
-/// @param take     function that is called with the index of a task and its frame.
+/// @param draw     function from a renderer and an index to a result.
+/// @param take     function that is called with an index and its result.
+/// @throws exceptions of `draw` and `take`.
+template <class Draw, class Take>
+void DrawInOrder(const FrameRenderer& renderer, int count, int workers, const Draw& draw,
+                 const Take& take) {
+  using Drawn = std::invoke_result_t<const Draw&, FrameRenderer&, int>;
+  const int ahead = std::min(workers, count);
+  std::vector<FrameRenderer> renderers(ahead, renderer);
+  std::deque<std::future<Drawn>> pending;
+  // The next task of a renderer starts after its previous one.
+  const auto start = [&](int index) {
+    pending.push_back(std::async(std::launch::async,
+                                 [&, index] { return draw(renderers[index % ahead], index); }));
+  };
+  for (int index = 0; index < ahead; ++index) start(index);
+  for (int index = 0; index < count; ++index) {
+    const Drawn drawn = pending.front().get();
+    pending.pop_front();
+    if (index + ahead < count) start(index + ahead);
+    take(index, drawn);
+  }
+}
+
+/// Draw frames in several threads and pass them on in order (DrawInOrder).
+/// @param take  function that is called with the index of a task and its frame.
 /// @throws exceptions of Render and `take`.
 void RenderInOrder(const FrameRenderer& renderer, std::span<const FrameTask> tasks, int workers,
                    const std::function<void(int index, const Image& image)>& take);

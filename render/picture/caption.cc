@@ -136,7 +136,13 @@ std::string DescribeTravel(const plan::Align& step, double scale, Names names) {
 }  // namespace
 
 std::string EntryTitle(const plan::Plan& plan, plan::EntryIndex entry, Names names) {
-  if (entry == 0) return "hold: fingers " + List(FingersOf(plan.initial), names);
+  if (entry == 0) {
+    const std::vector<FingerIndex> fingers = FingersOf(plan.initial);
+    const bool numbered = std::ranges::all_of(fingers, [&](FingerIndex finger) {
+      return FingerLabel(finger, names) == std::to_string(finger);
+    });
+    return (numbered ? "hold: fingers " : "hold: ") + List(fingers, names);
+  }
   return std::visit([names](const auto& kind) { return Describe(kind, names); },
                     plan::StepOf(plan, entry));
 }

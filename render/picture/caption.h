@@ -17,8 +17,8 @@ namespace regrasp::render {
 /// Return the name of a finger, or its number if it has none.
 [[nodiscard]] std::string FingerLabel(FingerIndex finger, std::span<const std::string> names);
 
-/// Return a title of a plan entry, for example "hold: fingers 0, 1, 2, 3", "switch: place 4,
-/// release 0" or "align: move 1, 3".
+/// Return a title of a plan entry, for example "hold: fingers 0, 1, 2, 3", "hold: index, thumb",
+/// "switch: place 4, release 0" or "align: move 1, 3".
 /// @param entry  index of the entry: 0 the initial grasp, k the k-th step.
 /// @param names  names of fingers by index; other fingers have their number.
 [[nodiscard]] std::string EntryTitle(const plan::Plan& plan, plan::EntryIndex entry,

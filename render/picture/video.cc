@@ -272,42 +272,72 @@ class Encoder {
 
 int Even(int side) { return side + side % 2; }
 
-/// Compute the luma of ITU-R BT.709 from linear combinations of the channels, 0 to 255.
-double Luma(const std::array<double, 3>& rgb) {
-  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
+/// Factors of red, green and blue times 2^kFractionBits.
+using Factors = std::array<int, kBytesPerPixel>;
+constexpr int kFractionBits = 16;
 
-/// Compute the mean colour of a square. Border pixels are repeated outside the image.
-std::array<double, 3> MeanColor(const Image& image, int left, int top, int side) {
-  std::array<double, 3> mean = {};
-  for (int y = top; y < top + side; ++y) {
-    for (int x = left; x < left + side; ++x) {
-      const std::size_t pixel =
-          std::size_t(std::min(y, image.height - 1)) * image.width + std::min(x, image.width - 1);
-      for (int c = 0; c < 3; ++c) mean[c] += image.rgb[kBytesPerPixel * pixel + c];
-    }
+constexpr Factors FactorsOf(double red, double green, double blue) {
+  constexpr double kScale = 1 << kFractionBits;
+  Factors factors = {};
+  const double values[] = {red, green, blue};
+  for (int i = 0; i < kBytesPerPixel; ++i) {
+    factors[i] = static_cast<int>(kScale * values[i] + (values[i] < 0 ? -0.5 : 0.5));
   }
-  for (double& channel : mean) channel /= side * side;
-  return mean;
+  return factors;
 }
 
-/// Fill a frame with Y'CbCr (BT.709, limited range), with one chroma value per 2 × 2 pixels.
+// Y'CbCr of ITU-R BT.709 from channels of 0 to 255, in the limited range.
+constexpr double kRedLuma = 0.2126, kGreenLuma = 0.7152, kBlueLuma = 0.0722;
+constexpr double kLumaRange = 219.0 / 255, kChromaRange = 224.0 / 255 / 2;
+constexpr int kBlackLuma = 16, kGreyChroma = 128;
+constexpr Factors kLumaFactors =
+    FactorsOf(kLumaRange * kRedLuma, kLumaRange* kGreenLuma, kLumaRange* kBlueLuma);
+constexpr double kBlueRange = kChromaRange / (1 - kBlueLuma);
+constexpr Factors kBlueFactors =
+    FactorsOf(-kBlueRange * kRedLuma, -kBlueRange* kGreenLuma, kChromaRange);
+constexpr double kRedRange = kChromaRange / (1 - kRedLuma);
+constexpr Factors kRedFactors =
+    FactorsOf(kChromaRange, -kRedRange* kGreenLuma, -kRedRange* kBlueLuma);
+
+/// Return zero + the linear combination of sums of 2^bits channel values, rounded.
+std::uint8_t Combined(const Factors& factors, const std::array<int, kBytesPerPixel>& sums, int bits,
+                      int zero) {
+  const int shift = kFractionBits + bits;
+  int value = (zero << shift) + (1 << (shift - 1));
+  for (int c = 0; c < kBytesPerPixel; ++c) value += factors[c] * sums[c];
+  return static_cast<std::uint8_t>(value >> shift);
+}
+
+/// Fill a frame with Y'CbCr (BT.709, limited range), with one chroma value per 2 × 2 pixels. Border
+/// pixels are repeated outside the image.
 void Convert(const Image& image, AVFrame& frame) {
-  constexpr double kLuma = 219.0 / 255, kBlue = 224 / (1.8556 * 255), kRed = 224 / (1.5748 * 255);
-  const auto set = [&frame](int plane, int x, int y, double value) {
-    frame.data[plane][std::ptrdiff_t{frame.linesize[plane]} * y + x] =
-        static_cast<std::uint8_t>(value + 0.5);
+  const auto row_of = [&](int y) {
+    return image.rgb.data() +
+           std::ptrdiff_t{kBytesPerPixel} * image.width * std::min(y, image.height - 1);
   };
+  const auto out_of = [&](int plane, int y) {
+    return frame.data[plane] + std::ptrdiff_t{frame.linesize[plane]} * y;
+  };
+  const auto at = [&](int x) { return kBytesPerPixel * std::min(x, image.width - 1); };
   for (int y = 0; y < frame.height; ++y) {
+    const unsigned char* in = row_of(y);
+    std::uint8_t* out = out_of(0, y);
     for (int x = 0; x < frame.width; ++x) {
-      set(0, x, y, 16 + kLuma * Luma(MeanColor(image, x, y, 1)));
+      const unsigned char* rgb = in + at(x);
+      out[x] = Combined(kLumaFactors, {rgb[0], rgb[1], rgb[2]}, 0, kBlackLuma);
     }
   }
   for (int y = 0; y < frame.height / 2; ++y) {
+    const unsigned char *upper = row_of(2 * y), *lower = row_of(2 * y + 1);
+    std::uint8_t *blue = out_of(1, y), *red = out_of(2, y);
     for (int x = 0; x < frame.width / 2; ++x) {
-      const std::array<double, 3> rgb = MeanColor(image, 2 * x, 2 * y, 2);
-      set(1, x, y, 128 + kBlue * (rgb[2] - Luma(rgb)));
-      set(2, x, y, 128 + kRed * (rgb[0] - Luma(rgb)));
+      const int left = at(2 * x), right = at(2 * x + 1);
+      std::array<int, kBytesPerPixel> sums;
+      for (int c = 0; c < kBytesPerPixel; ++c) {
+        sums[c] = upper[left + c] + upper[right + c] + lower[left + c] + lower[right + c];
+      }
+      blue[x] = Combined(kBlueFactors, sums, 2, kGreyChroma);
+      red[x] = Combined(kRedFactors, sums, 2, kGreyChroma);
     }
   }
 }

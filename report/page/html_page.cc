@@ -1,5 +1,8 @@
 #include "report/page/html_page.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "page_style.h"
 #include "render/viewer/viewer_scene.h"
 
@@ -65,15 +68,33 @@ std::string FormatHtmlPage(std::string_view title, const std::vector<Element>& p
   return "<!DOCTYPE html>\n" + Element("html", language, page).Format() + "\n";
 }
 
+Element WithOptions(Element element, std::string_view text) {
+  constexpr std::string_view kOfOption = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  for (;;) {
+    std::size_t begin = text.find("--");
+    while (begin != std::string_view::npos && begin > 0 && text[begin - 1] != ' ') {
+      begin = text.find("--", begin + 1);
+    }
+    if (begin == std::string_view::npos) break;
+    const std::size_t end = std::min(text.find_first_not_of(kOfOption, begin), text.size());
+    element.Add(text.substr(0, begin));
+    element.Add(Element("span", {{"class", "option"}}, text.substr(begin, end - begin)));
+    text.remove_prefix(end);
+  }
+  element.Add(text);
+  return element;
+}
+
 Element PageHeader(std::string_view kind, std::string_view subject, bool passed,
                    std::string_view statement, std::string_view extent) {
   const std::string verdict =
       (passed ? "Pass" : "Fail") + (extent.empty() ? "" : " " + std::string(extent));
-  return Element(
-      "header", {},
-      std::vector<Element>{Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
-                           Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
-                                   Element("strong", {}, verdict), " ", statement)});
+  return Element("header", {},
+                 std::vector<Element>{
+                     Element("p", {{"class", "kicker"}}, kind), Element("h1", {}, subject),
+                     WithOptions(Element("p", {{"class", passed ? "verdict pass" : "verdict fail"}},
+                                         Element("strong", {}, verdict), " "),
+                                 statement)});
 }
 
 }  // namespace regrasp::report

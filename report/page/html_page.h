@@ -35,6 +35,10 @@ enum class PictureSource {
                                          std::span<const std::string_view> scripts = {},
                                          std::string_view style = {});
 
+/// Append a text to an element. The names of options in it, "--friction-angle", do not break across
+/// lines.
+[[nodiscard]] Element WithOptions(Element element, std::string_view text);
+
 /// Return the head of a page: its kind in small letters, its subject, and the verdict with a
 /// summary.
 /// @param extent  text after "Pass" or "Fail", for example "in 14 of 20 trials"; may be empty.

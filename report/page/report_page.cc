@@ -256,9 +256,12 @@ class Page {
         "The motion between the static grasps, with a short pause after each step.";
     const std::string name = "The replay as a moving picture";
     const bool video = moving_.media_type.starts_with("video/");
-    return {Element("div", {{"class", "replay"}},
-                    Parts{Element("h2", {}, "Replay"), Note(text),
-                          video ? MakeVideo(moving_, name) : MakeImage(moving_, name)})};
+    // An image has no controls: it plays while the element is open.
+    const Element image = Element("details", {}, Element("summary", {}, "Play the animation"),
+                                  MakeImage(moving_, name));
+    return {Element(
+        "div", {{"class", "replay"}},
+        Parts{Element("h2", {}, "Replay"), Note(text), video ? MakeVideo(moving_, name) : image})};
   }
 
   [[nodiscard]] static Element MakeImage(const PagePicture& picture, const std::string& name) {

@@ -1,6 +1,7 @@
 #include "report/pictures/report_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -202,13 +203,18 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                      marks ? &*marks : nullptr,
                      view});
   }
-  const auto draw = [&](int index, const render::Image& image) {
+  const auto draw = [&tasks](render::FrameRenderer& drawer, int index) {
+    const render::FrameTask& task = tasks[index];
+    const std::array texts = {task.text, render::FrameText{"", task.text.progress}};
+    return drawer.RenderWithTexts(*task.snapshot, texts, task.fault, task.view);
+  };
+  const auto pass_on = [&](int index, const std::vector<render::Image>& images) {
     const ReportStep& step = *shown[index].step;
-    take({step.check.index, image, renderer.HasOwnView(index)});
-    sheet.Add(image, MakeLabel(step, progress[index]));
+    take({step.check.index, images[0], images[1], renderer.HasOwnView(index)});
+    sheet.Add(images[0], MakeLabel(step, progress[index]));
     options.on_picture(index + 1, count);
   };
-  render::RenderInOrder(renderer, tasks, options.workers, draw);
+  render::DrawInOrder(renderer, count, options.workers, draw, pass_on);
   AddSkipped(report, skipped, sheet);
   return sheet.ToImage();
 }

@@ -32,7 +32,8 @@ struct DrawingOptions {
 struct DrawnFrame {
   plan::EntryIndex entry;
   const render::Image& image;
-  bool own_view = false;  ///< whether its camera differs from that of the rest
+  const render::Image& page_image;  ///< the frame without a caption, which a page has as text
+  bool own_view = false;            ///< whether its camera differs from that of the rest
 };
 
 /// Entry that has a frame: the displayed state, and marks at the fault if it failed.

@@ -78,7 +78,7 @@ std::string Svg(const HandPanels& panels, int index) {
 TEST(HandFigures, HaveAPanelPerEntryWithTheNamesOfFingers) {
   const HandPanels panels = MakePanels(MakeHand(MakePlan()));
   ASSERT_EQ(panels.count(), 3);
-  EXPECT_EQ(panels.caption(0), "(a) hold: fingers index, thumb");
+  EXPECT_EQ(panels.caption(0), "(a) hold: index, thumb");
   EXPECT_THAT(panels.caption(2), HasSubstr("release thumb"));
 }
 

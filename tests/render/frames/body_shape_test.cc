@@ -217,6 +217,14 @@ TEST(BodyShapeTest, AScanIsShadedSmoothlyThroughoutAndACadModelUpToItsCreases) {
   EXPECT_EQ(CountSmooth(MakeBodyShape(MakeThinLBlock())), 0);
 }
 
+TEST(BodyShapeTest, ConcaveEdgesAreNotPartOfAnOutline) {
+  // The inner edge of the L is a fold and a crease, and the solid hides it from wherever it would
+  // separate front and back.
+  const BodyShape block = MakeBodyShape(MakeThinLBlock());
+  EXPECT_EQ(block.edges.size(), 18U);
+  EXPECT_EQ(block.folds.size(), 17U);
+}
+
 TEST(BodyShapeTest, TheOutlineOfARoundObjectSeparatesFrontAndBack) {
   const BodyShape body = MakeBodyShape(MakeRoundPrism(64), {.crease_angle = Radians(95)});
   EXPECT_TRUE(body.edges.empty());

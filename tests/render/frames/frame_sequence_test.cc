@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -50,6 +51,16 @@ TEST_F(FrameSequenceTest, FramesComeInOrderAndDoNotDependOnTheNumberOfWorkers) {
     for (std::size_t i = 0; i < images.size(); ++i) {
       EXPECT_TRUE(images[i].rgb == expected[i].rgb) << workers << " workers, frame " << i;
     }
+  }
+}
+
+TEST_F(FrameSequenceTest, AFrameWithSeveralTextsIsThatOfEachText) {
+  const std::array texts = {FrameText{"with a caption", "5 of 90°"}, FrameText{"", "5 of 90°"}};
+  const std::vector<Image> images = renderer_.RenderWithTexts(snapshots_[1], texts);
+  ASSERT_EQ(images.size(), 2U);
+  EXPECT_FALSE(images[0].rgb == images[1].rgb);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(images[i].rgb == renderer_.Render(snapshots_[1], texts[i]).rgb) << i;
   }
 }
 

@@ -74,6 +74,11 @@ TEST(CaptionTest, FingersHaveNamesOrNumbers) {
   EXPECT_EQ(FrameCaption(plan, plan::EntryIndex(1), names),
             "step 1/1 · switch: place index, release 2");
   EXPECT_EQ(EntryTitle(plan, plan::EntryIndex(1)), "switch: place 1, release 2");
+  plan.initial.resize(2);
+  plan.initial[0].finger = FingerIndex(0);
+  plan.initial[1].finger = FingerIndex(1);
+  EXPECT_EQ(EntryTitle(plan, plan::EntryIndex(0), names), "hold: thumb, index");
+  EXPECT_EQ(EntryTitle(plan, plan::EntryIndex(0)), "hold: fingers 0, 1");
 }
 
 TEST(BreakLinesTest, LinesEndAtSpacesButNotBeforeAUnit) {

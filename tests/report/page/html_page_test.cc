@@ -38,5 +38,16 @@ TEST(HtmlPageTest, TheHeaderSaysTheVerdict) {
   EXPECT_THAT(PageHeader("", "", true, "").Format(), HasSubstr("<strong>Pass</strong>"));
 }
 
+TEST(HtmlPageTest, NamesOfOptionsDoNotBreakAcrossLines) {
+  const auto text = [](std::string_view said) { return WithOptions(Element("p"), said).Format(); };
+  EXPECT_EQ(text("Use --friction-angle 30, or --view=0 <b>."),
+            "<p>Use <span class=\"option\">--friction-angle</span> 30, or "
+            "<span class=\"option\">--view</span>=0 &lt;b&gt;.</p>");
+  // Other words with hyphens may break.
+  EXPECT_EQ(text("well--known force-closure"), "<p>well--known force-closure</p>");
+  EXPECT_EQ(text("--seed"), "<p><span class=\"option\">--seed</span></p>");
+  EXPECT_EQ(text(""), "<p></p>");
+}
+
 }  // namespace html_page_test
 }  // namespace regrasp::report

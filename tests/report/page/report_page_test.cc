@@ -197,10 +197,13 @@ TEST(ReportPageTest, AVideoPlaysOnThePageAndAnImageOfAnotherTypeIsOne) {
   EXPECT_EQ(Count(video, "</video>"), 1);
   EXPECT_EQ(Count(video, "src=\"data:video/mp4;base64,YWJj\""), 1);
   EXPECT_EQ(Count(video, "<img"), 0);
+  EXPECT_EQ(Count(video, "Play the animation"), 0);
   const std::string image =
       FormatReportHtml(scene.report, scene.plan, {}, {"abc", 320, 240, "image/gif"});
   EXPECT_EQ(Count(image, "src=\"data:image/gif;base64,YWJj\""), 1);
   EXPECT_EQ(Count(image, "<video"), 0);
+  // It plays only while the reader has opened it.
+  EXPECT_EQ(Count(image, "<details><summary>Play the animation</summary><img"), 1);
 }
 
 TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "render/frames/shaded_mesh.h"
+
+namespace regrasp::render {
+
+/// The triangles of a mesh by the indices of its different corners.
+struct WeldedMesh {
+  std::vector<Eigen::Vector3d> vertices;      ///< in the order in which they first occur
+  std::vector<std::array<int, 3>> triangles;  ///< vertex indices
+};
+
+/// Return a mesh in which triangles share corners of equal coordinates.
+[[nodiscard]] WeldedMesh Weld(const ShadedMesh& mesh);
+
+/// Remove the details of a mesh that are smaller than a tolerance.
+///
+/// A vertex moves to a neighbour as long as the neighbour is within `tolerance` of the planes of all
+/// triangles that the vertex replaces (quadric error metric, Garland and Heckbert 1997). Open borders
+/// and creases remain. The corners of the result are corners of the mesh with one of their normals
+/// there. Deterministic.
+///
+/// Laws: with tolerance 0 only vertices inside planar areas and straight creases disappear; a closed
+/// mesh remains closed.
+///
+/// @param mesh       a mesh without colours; others are returned unchanged.
+/// @param tolerance  largest distance, in units of the mesh, at least 0.
+[[nodiscard]] ShadedMesh ReduceDetail(const ShadedMesh& mesh, double tolerance);
+
+}  // namespace regrasp::render
