@@ -1,12 +1,14 @@
 // evaluate: tests grasps of data sets on the hand that they were made for.
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/converted_grasps.h"
 #include "apps/evaluate_lines.h"
 #include "apps/evaluate_reasons.h"
 #include "apps/explain.h"
@@ -14,6 +16,7 @@
 #include "apps/list_option.h"
 #include "apps/options.h"
 #include "apps/program.h"
+#include "planner/base/error.h"
 
 namespace {
 
@@ -36,12 +39,17 @@ ListOption ProtocolOption(std::vector<GraspProtocol>& protocols) {
   return option;
 }
 
-void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
+void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options, std::string& palm) {
   BeginGroup(app, "Input");
   app.add_option("--grasps", options.grasps,
-                 "Grasps by a whole hand in JSON Lines, as regrasp-convert writes them")
-      ->type_name("FILE")
+                 "Grasps by a whole hand: JSON Lines, or a file or folder of a data set, which "
+                 "regrasp-convert converts first")
+      ->type_name("FILE|FOLDER")
       ->required();
+  app.add_option("--palm", palm,
+                 "Pose of the palm frame in the body whose poses a data set has. Metres and unit "
+                 "quaternion; --palm=-1,2,3 if it starts with a minus [default: identity]")
+      ->type_name("X,Y,Z[,QW,QX,QY,QZ]");
   app.add_option("--hand", options.hand, "Hand file of the hand that the grasps were made for")
       ->type_name("FILE")
       ->required();
@@ -83,7 +91,9 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --output reports.jsonl\n"
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol "
       "fall,disturbance -o "
-      "reports.jsonl -o reports.html\n");
+      "reports.jsonl -o reports.html\n"
+      "  evaluate --grasps dataset --hand hand.json --object objects -o reports.jsonl -o "
+      "reports.html\n");
 }
 
 }  // namespace
@@ -93,8 +103,21 @@ int main(int argc, char** argv) {
   EvaluateOptions options;
   options.jobs =
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostProcesses);
-  AddEvaluateOptions(app, options);
+  std::string palm;
+  AddEvaluateOptions(app, options, palm);
   return RunProgram(app, argc, argv, [&] {
+    if (NeedsConversion(options.grasps)) {
+      const std::string converted = std::filesystem::path(options.outputs.front())
+                                        .replace_extension(".grasps.jsonl")
+                                        .string();
+      const int code =
+          ConvertGrasps({options.grasps, options.hand, options.object, palm}, converted);
+      if (code != 0) return code;
+      options.grasps = converted;
+    } else if (!palm.empty()) {
+      throw regrasp::InputError("--palm cannot be used with " + options.grasps +
+                                ", expected a file or folder of a data set");
+    }
     if (options.protocols.empty()) options.protocols = {GraspProtocol::kAnalytic};
     return RunEvaluate(options);
   });

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "apps/evaluate_reasons.h"
 #include "apps/evaluate_rows.h"
 #include "apps/evaluate_table.h"
 #include "planner/base/number.h"
@@ -160,6 +162,54 @@ Element CountsTable(const std::vector<TextRow>& texts) {
                  Element("table", {{"class", "counts"}}, Element("thead", {}, head), body));
 }
 
+/// Return text of the failure reasons without marks of code.
+std::string PlainText(std::string_view text) {
+  std::string plain(text);
+  std::erase(plain, '`');
+  return plain;
+}
+
+/// Return a list of the remedies, which are separated by line ends.
+Element RemedyList(std::string_view remedies) {
+  Element list("ul");
+  while (!remedies.empty()) {
+    const std::size_t end = std::min(remedies.find('\n'), remedies.size());
+    list.Add(Element("li", {}, PlainText(remedies.substr(0, end))));
+    remedies.remove_prefix(std::min(end + 1, remedies.size()));
+  }
+  return list;
+}
+
+/// Return the section on the grasps that fail: reasons with meaning and remedies, most grasps
+/// first.
+std::vector<Element> MakeReasonSection(const std::map<std::string, std::int64_t>& by_reason) {
+  if (by_reason.empty()) return {};
+  std::vector<std::pair<std::string, std::int64_t>> reasons(by_reason.begin(), by_reason.end());
+  std::ranges::stable_sort(reasons, std::ranges::greater(),
+                           &std::pair<std::string, std::int64_t>::second);
+  const Element head("tr", {}, report::HeadCell("reason", ""), report::HeadCell("grasps"),
+                     report::HeadCell("meaning", ""), report::HeadCell("remedies", ""));
+  Element body("tbody");
+  std::int64_t failed = 0;
+  for (const auto& [name, count] : reasons) {
+    failed += count;
+    Element line("tr", {}, Element("td", {}, name), report::NumberCell(std::to_string(count)));
+    const auto known = std::ranges::find(EvaluateReasons(), name, &plan::FailureReason::name);
+    const bool is_known = known != EvaluateReasons().end();
+    line.Add(Element("td", {}, is_known ? PlainText(known->meaning) : kMissing));
+    line.Add(is_known ? Element("td", {}, RemedyList(known->remedies))
+                      : Element("td", {}, kMissing));
+    body.Add(line);
+  }
+  return {
+      Element("h2", {}, "Reasons for failure"),
+      report::Note("Discard the grasps that fail (" + std::to_string(failed) +
+                   "), unless a remedy applies. If most grasps of an object or of a hand fail "
+                   "for the same reason, first check its scale, frame and conventions."),
+      Element("div", {{"class", "scroll"}},
+              Element("table", {{"class", "counts reasons"}}, Element("thead", {}, head), body))};
+}
+
 std::string Summary(const PageRows& rows) {
   std::string text = std::to_string(rows.count) + " grasps";
   for (const auto& [verdict, count] : rows.by_verdict) {
@@ -191,9 +241,13 @@ std::string FormatGraspPage(const std::filesystem::path& reports, const GraspPag
   const bool all_pass = passed != rows.by_verdict.end() && passed->second == rows.count;
   std::vector<Element> parts = {
       report::PageHeader("Evaluation of hand grasps", page.grasps, all_pass, Summary(rows))};
-  for (const std::vector<TextRow>& table : EvaluateTables(ReadEvaluateCounts(reports))) {
-    parts.push_back(CountsTable(table));
-  }
+  EvaluateCounts counts = ReadEvaluateCounts(reports);
+  for (const Element& part : MakeReasonSection(counts.by_reason)) parts.push_back(part);
+  counts.by_reason.clear();
+  const std::vector<std::vector<TextRow>> tables = EvaluateTables(counts);
+  if (!tables.empty()) parts.push_back(Element("h2", {}, "Pass and fail"));
+  for (const std::vector<TextRow>& table : tables) parts.push_back(CountsTable(table));
+  parts.push_back(Element("h2", {}, "Grasps"));
   if (rows.count > static_cast<std::int64_t>(rows.rows.size())) {
     parts.push_back(report::Note("The table has the first " + std::to_string(rows.rows.size()) +
                                  " grasps, those that fail first. The file of reports and the CSV "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "planner/object/rotation.h"
@@ -17,6 +18,9 @@ constexpr double kShiftStep = 0.004;  // metres
 
 /// Rotations about the direction of a facing goal, radians.
 constexpr std::array kTwists = {Radians(45), -Radians(45), Radians(90), -Radians(90), Radians(180)};
+
+/// Smallest rotation to a goal pose whose complement to a full rotation is also a track, radians.
+constexpr double kFewestForLongWay = Radians(90);
 
 constexpr double kShift = 0.008;  // metres
 constexpr double kTilt = 0.15;    // radians
@@ -72,7 +76,14 @@ PoseTrack ObjectTask::From(const Eigen::Isometry3d& start) const {
 std::vector<PoseTrack> ObjectTask::Tracks(const Eigen::Isometry3d& start) const {
   std::vector<PoseTrack> tracks = {From(start)};
   const plan::FacingGoal* facing = goal_ ? goal_->facing() : nullptr;
-  if (facing == nullptr) return tracks;
+  if (facing == nullptr) {
+    const Turn turn = tracks.front().turn();
+    if (goal_ && turn.angle > kFewestForLongWay) {
+      const Turn opposite{turn.axis, turn.angle - 2 * std::numbers::pi};
+      tracks.push_back(InShortSteps({start, centre_, opposite, tracks.front().shift(), 1}));
+    }
+    return tracks;
+  }
   const Eigen::Isometry3d nearest = tracks.front().PoseAt(tracks.front().steps());
   for (const double twist : kTwists) {
     Eigen::Isometry3d end = nearest;

@@ -92,7 +92,8 @@ class ObjectTask {
   /// Return the track from a start in the given number of steps; a single pose if nothing moves.
   [[nodiscard]] PoseTrack From(const Eigen::Isometry3d& start, int steps) const;
   /// Return tracks from a start to different poses of the goal set, shortest first.
-  /// For a facing goal they differ by rotations about its direction.
+  /// For a facing goal they differ by rotations about its direction. If the rotation to a goal pose
+  /// exceeds 90°, the second track rotates about the same axis in the opposite direction.
   [[nodiscard]] std::vector<PoseTrack> Tracks(const Eigen::Isometry3d& start) const;
 
  private:

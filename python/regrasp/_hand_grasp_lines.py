@@ -15,7 +15,7 @@ from ._regrasp import InputError
 _FORMAT = {"format": "regrasp-hand-grasp", "version": 1}
 
 _WRITTEN = {"pregrasp": ("pregrasp_qpos", "pregrasp_cspace_position"),
-            "target": ("squeeze_qpos", "all stages of robot_pose but the second"),
+            "target": ("squeeze_qpos", "all stages of robot_pose but the second", "grasp_orientations"),
             "objects": ("obj_path",), "claimed": ("succ_flag",), "scales": ("obj_scale", "scale")}
 """Contents that other formats lose, by the attribute of HandGrasps that has them."""
 
@@ -50,6 +50,8 @@ def _line(grasps: HandGrasps, i: int, name: str, file: str | None, scale: float 
         configurations = getattr(grasps, key)
         if configurations is not None:
             entry[key] = _of(configurations, grasps.joint_names, i)
+    if grasps.closing and grasps.target is None:
+        entry["closing"] = grasps.closing
     if grasps.claimed is not None:
         entry["claimed"] = bool(grasps.claimed[i])
     if grasps.scored:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from dataclasses import dataclass, field, replace
 
@@ -86,6 +87,12 @@ class HandGrasps:
     """File names of the N objects, if the file names them."""
     set_name: str = ""
     """Name of the format of the data set."""
+    closing: dict[str, float] | None = field(default=None, repr=False, compare=False)
+    """Closing motion by joint, if the format states it in place of targets: factors of the upper
+    limit, and negative ones of the lower limit."""
+    directions: np.ndarray | None = field(default=None, repr=False, compare=False)
+    """Unit vectors (N, F, 3) in the object's frame along which the F fingertips close, if the file
+    has them."""
 
     def __post_init__(self):
         """Check the arrays.
@@ -223,6 +230,8 @@ def measure_gaps(grasps: HandGrasps, hand: Hand, object: Object,
 def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
     """Return the static grasps of a plan for a hand: the initial one, and one after each step.
 
+    The grasps have the name and the scale of the plan's object.
+
     Args:
         path: Plan file.
         hand: Hand of the plan, which gives the names of its joints.
@@ -231,6 +240,7 @@ def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
         InputError: If the plan has no hand, or a different one.
     """
     name, data = hand_plan(path, hand)
+    count, entry = 1 + len(data["steps"]), data["object"]
     states, names = [data["hand"]["initial"]], ["000_hold"]
     for i, step in enumerate(data["steps"], 1):
         states.append(next((path[-1] for path in reversed(paths_of(step)) if path), states[-1]))
@@ -240,5 +250,28 @@ def of_plan(path: str | os.PathLike, hand: Hand) -> HandGrasps:
              for s in states]
     inverses = [_poses.inverse(*pose) for pose in poses]
     return HandGrasps(np.array([p for p, _ in inverses]), np.array([q for _, q in inverses]),
-                      hand.joint_names, joints, names, np.ones(len(states)),
-                      ["contacts", "motions between the grasps", "which fingers hold"])
+                      hand.joint_names, joints, names, np.ones(count),
+                      ["contacts", "motions between the grasps", "which fingers hold"], np.full(count, entry["scale"]),
+                      objects=[os.path.basename(entry["file"])] * count)
+
+
+def check_object_of_plan(path: str | os.PathLike, hand: Hand) -> None:
+    """Check that a file with the name of the plan's object, in the folder of the plan, is this object.
+
+    Args:
+        path: Plan file.
+        hand: Hand of the plan.
+
+    Raises:
+        InputError: If the file has another digest than the object of the plan.
+    """
+    name, data = hand_plan(path, hand)
+    neighbour = os.path.join(os.path.dirname(name), os.path.basename(data["object"]["file"]))
+    try:
+        with open(neighbour, "rb") as file:
+            digest = hashlib.sha256(file.read()).hexdigest()
+    except FileNotFoundError:
+        return
+    if digest != data["object"]["sha256"]:
+        raise InputError(f"{name}: {neighbour} is not the object of the plan, expected SHA-256 "
+                         f"{data['object']['sha256'][:12]}…, found {digest[:12]}…; help: give the object as --object")

@@ -17,7 +17,7 @@ from ._hand_grasps import HandGrasps, WorldPoses, measure_gaps
 from .hands import Hand
 from .objects import Object
 
-KINDS = "quaternion order, joints in degrees, lengths in millimetres or palm frame"
+KINDS = "quaternion order, transposed rotations, joints in degrees, lengths in millimetres or palm frame"
 """Tested interpretations."""
 
 _MOST_GRASPS = 24
@@ -134,6 +134,9 @@ def _readings(grasps: HandGrasps, file_scales: np.ndarray | None) -> Iterator[Re
     if file_scales is not None:
         yield Reading("scale", "with the scale in the file of the grasps", "leave --scale out",
                       replace(grasps, scales=file_scales))
+    if grasps.world is None:
+        yield Reading("rotation", "with transposed rotations of the palm", "give the axes of the palm as columns",
+                      replace(grasps, quaternions=grasps.quaternions * [1, -1, -1, -1]))
     back = _poses.inverse(grasps.positions, grasps.quaternions)
     yield Reading("palm frame", "with poses of the object in the palm's frame",
                   "give poses of the palm in the object's frame",

@@ -38,13 +38,29 @@ JOINT_NAMES = {
 }
 """Order of the joints by gripper in Isaac Sim, according to the documentation of the data set."""
 
+_CLOSING = {
+    "jaco_robot": [1, 1, 1],
+    "fetch_gripper": [-1, -1],
+    "franka_panda": [-1, -1],
+    "Allegro": [0, 0.5, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0, 0],
+    "sawyer": [1, 1],
+    "wsg_50": [1, -1],
+    "Barrett": [0, 0, 1, 1, 1, 0, 0, 0],
+    "robotiq_3finger": [0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 0],
+    "HumanHand": [0, 0, 0, 0, 0, 1, 1, 1, 1, 0.75, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+    "shadow_hand": [0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0],
+}
+"""Closing motion of the joints by gripper: `close_dir` of grippers/controller_info.json. The joints
+of h5_hand depend on each other, which factors of limits cannot state."""
+
 
 def read_multigrippergrasp(path: str | os.PathLike) -> HandGrasps:
     """Read a file of MultiGripperGrasp: the grasps of one object by one gripper.
 
     `pose` has the poses of the gripper's base in the frame of the object, in metres, with
     quaternions w, x, y, z. `dofs` has the joint values in the order of Isaac Sim. For the grippers
-    of the data set, the joints have names. `result` is the claimed success, otherwise a `fall_time`
+    of the data set, the joints have names, and the closing motion is that of its position
+    controller. `result` is the claimed success, otherwise a `fall_time`
     of at least the duration of the test.
 
     Args:
@@ -66,11 +82,12 @@ def read_multigrippergrasp(path: str | os.PathLike) -> HandGrasps:
         raise InputError(f"{name}: dofs must have {len(names)} joints for {shown(gripper)}, found {joints.shape[1]}")
     stem = os.path.splitext(os.path.basename(name))[0]
     read = {"gripper", "object_id", "pose", "dofs", "result", "fall_time", "test_duration"}
+    closing = {joint: factor for joint, factor in zip(names, _CLOSING.get(gripper, [])) if factor != 0}
     return HandGrasps(poses[:, :3], _poses.unit(f"{name}: pose", poses[:, 3:]), names,
                       joints.reshape(len(poses), -1) if len(poses) else np.zeros((0, len(names))),
                       [f"{stem}_{i}" for i in range(len(poses))], np.ones(len(poses)), sorted(map(str, set(data) - read)),
                       claimed=_claims(name, data, len(poses)), objects=[f"{objects}.obj"] * len(poses),
-                      set_name="multigrippergrasp")
+                      set_name="multigrippergrasp", closing=closing or None)
 
 
 def _read(path: str) -> dict:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import re
 import sys
@@ -10,16 +11,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import _arguments, _dict_file, _misread, _npz, formats
+from . import _arguments, _dict_file, _get_a_grip, _misread, _npz, formats
 from ._hand_grasp_lines import not_written
-from ._hand_grasps import WorldPoses
+from ._hand_grasps import WorldPoses, check_object_of_plan
 from ._help_as import help_as
 from ._regrasp import InputError, version
 from .hands import Hand
 from .objects import Object
 
 _EPILOG = """Input, by file ending: isaac_grasp 1.0 (.yaml), dictionaries of DexGraspBench, Dexonomy and BODex
-(.npy, .npz), lists of DexGraspNet (.npy), worlds of GraspIt! (.xml), grasps of MultiGripperGrasp (.json) and ACRONYM (.h5), plans of HiDex (.csv), plans of regrasp for a hand (.json),
+(.npy, .npz), lists of DexGraspNet (.npy), dictionaries of Get-a-Grip (.npy), worlds of GraspIt! (.xml), grasps of MultiGripperGrasp (.json) and ACRONYM (.h5), plans of HiDex (.csv), plans of regrasp for a hand (.json),
 trajectories of validate (.npz, to .mcap). Output: hand grasps for evaluate
 (.jsonl), isaac_grasp 1.0 (.yaml), contacts for validate --grasps (.npz), plans of regrasp (.json, of .csv), ROS 2 transforms and joint states (.mcap)."""
 
@@ -65,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
                         "poses the files contain. Metres and unit quaternion; --palm=-1,2,3 if it starts with a "
                         "minus [default: identity]")
     parser.add_argument("--object", metavar="FILE", help="object file. Required for .npz and from "
-                        ".csv; names the object in .jsonl")
+                        ".csv; names the object in .jsonl [default: that of the grasps]")
     parser.add_argument("--object-pose", metavar="X,Y,Z,QW,QX,QY,QZ", help="pose of the object in the world of a "
                         "dictionary (.npy, .npz). Replaces the pose in the file")
     parser.add_argument("--scale", type=float, metavar="METRES_PER_UNIT", help="metres per length unit of the "
@@ -102,11 +103,14 @@ def _numbers(option: str, text: str) -> list[float]:
         raise InputError(f"{option} must be numbers separated by commas, found {text!r}") from None
 
 
-def _read_dictionary(path: str, options) -> formats.HandGrasps:
+def _read_dictionary(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     content = _dict_file.read_content(path)
     if isinstance(content, list):
         _check_object_pose(path, options)
         return formats.read_dexgraspnet(path)
+    if _get_a_grip.MEMBERS <= set(content):
+        _check_object_pose(path, options)
+        return formats.read_get_a_grip(path, hand)
     read = formats.read_bodex if "robot_pose" in content else formats.read_dexgraspbench
     pose = None
     if options.object_pose is not None:
@@ -138,7 +142,8 @@ def _with_names_of(hand: Hand, grasps: formats.HandGrasps) -> formats.HandGrasps
     own = {re.sub(r"\W", "_", name): name for name in hand.joint_names}
     if len(own) < len(hand.joint_names) or set(grasps.joint_names) <= set(hand.joint_names):
         return grasps
-    return replace(grasps, joint_names=[own.get(name, name) for name in grasps.joint_names])
+    closing = grasps.closing and {own.get(name, name): factor for name, factor in grasps.closing.items()}
+    return replace(grasps, joint_names=[own.get(name, name) for name in grasps.joint_names], closing=closing)
 
 
 def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
@@ -148,9 +153,12 @@ def _read(path: str, hand: Hand | None, options) -> formats.HandGrasps:
     if ending == ".json" and _is_multigrippergrasp(path):
         return formats.read_multigrippergrasp(path)
     if ending == ".json":
-        return formats.of_plan(path, _need(hand, "hand", "for the joint names of a plan"))
+        hand = _need(hand, "hand", "for the joint names of a plan")
+        if options.object is None:
+            check_object_of_plan(path, hand)
+        return formats.of_plan(path, hand)
     if ending in (".npy", ".npz"):
-        return _read_dictionary(path, options)
+        return _read_dictionary(path, hand, options)
     if ending in (".yaml", ".yml"):
         return formats.read_isaac_grasp(path)
     if ending == ".xml":
@@ -355,18 +363,33 @@ def _grasp_files(inputs: list[str]) -> list[tuple[str, str]]:
     return files
 
 
+def _hand_with_fingers(path: str | None) -> Hand | None:
+    """Return the hand of a file; None if it has no fingers, which `evaluate` permits."""
+    if path is None:
+        return None
+    try:
+        with open(path, "rb") as file:
+            if "fingers" not in json.load(file):
+                return None
+    except (ValueError, TypeError):
+        pass  # Hand.read reports it
+    return Hand.read(path)
+
+
 def _write_hand_grasps(options) -> list[str]:
-    hand = Hand.read(options.hand) if options.hand else None
+    hand = _hand_with_fingers(options.hand)
     lost: set[str] = set()
 
     def parts():
         for path, prefix in _grasp_files(options.inputs):
             grasps = _at_palm(options, _read(path, hand, options))
-            lost.update(not_written(grasps))
             if not grasps.joint_names and hand is not None:
                 grasps = replace(_fitting(path, grasps, hand), joint_names=hand.joint_names)
             elif hand is not None:
                 grasps = _with_names_of(hand, grasps)
+            if grasps.directions is not None and hand is not None:
+                grasps = formats.with_closing_targets(grasps, hand)
+            lost.update(not_written(grasps))
             yield prefix, grasps
 
     scale = None if options.scale is None else _arguments.number("--scale", options.scale, 0)

@@ -80,6 +80,7 @@ void CheckGraspConventions(const HandGrasp& grasp, const WholeHand& hand,
   for (const auto& [configuration, name] : configurations) {
     if (configuration != nullptr) world.CheckJoints(*configuration, name);
   }
+  static_cast<void>(world.Closed(grasp.grasp, grasp.closing, where + ": /closing"));
   CheckDegrees(grasp, world, where);
   const double size = object.diameter() * grasp.scale;
   const double distance = (grasp.grasp.palm.translation() - world.centroid()).norm();

@@ -63,7 +63,9 @@ class GraspTester {
     verdict_.touches = geometry.Measure(world);
     verdict_.distance_m = SmallestDistance(verdict_.touches);
     // A target of the data set may exceed joint ranges, because it is a command.
-    target_ = grasp.target ? *grasp.target : world.WithinRange(DerivedTarget());
+    target_ = grasp.target            ? *grasp.target
+              : grasp.closing.empty() ? world.WithinRange(DerivedTarget())
+                                      : world.Closed(grasp.grasp, grasp.closing, "closing");
   }
 
   void Run(GraspProtocol protocol) {

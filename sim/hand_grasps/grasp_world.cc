@@ -261,13 +261,19 @@ void GraspWorld::SetPhysics(const GraspPhysics& physics) {
   UpdateConstants(model, *data_);
 }
 
+const GraspWorld::JointRange& GraspWorld::FindJoint(const std::string& name,
+                                                    const std::string& where) const {
+  const auto found = std::ranges::find(joints_, name, &JointRange::name);
+  if (found != joints_.end()) return *found;
+  std::string names;
+  for (const JointRange& joint : joints_) names += (names.empty() ? "" : ", ") + joint.name;
+  throw InputError(where + ": unknown joint \"" + name + "\", expected " + names);
+}
+
 void GraspWorld::CheckJoints(const HandConfiguration& configuration,
                              const std::string& where) const {
   for (const auto& [name, unused] : configuration.joints) {
-    if (joint_ids_.contains(name)) continue;
-    std::string names;
-    for (const JointRange& joint : joints_) names += (names.empty() ? "" : ", ") + joint.name;
-    throw InputError(where + ": joints: unknown joint \"" + name + "\", expected " + names);
+    static_cast<void>(FindJoint(name, where + ": joints"));
   }
   for (const JointRange& joint : joints_) {
     const bool follows = std::ranges::any_of(followers_, [&](const Follower& follower) {
@@ -276,6 +282,18 @@ void GraspWorld::CheckJoints(const HandConfiguration& configuration,
     if (follows || configuration.joints.contains(joint.name)) continue;
     throw InputError(where + ": joints: joint \"" + joint.name + "\" not found");
   }
+}
+
+HandConfiguration GraspWorld::Closed(const HandConfiguration& configuration,
+                                     const std::map<std::string, double>& closing,
+                                     const std::string& where) const {
+  HandConfiguration closed = configuration;
+  for (const auto& [name, factor] : closing) {
+    const JointRange& joint = FindJoint(name, where);
+    if (!joint.limited) throw InputError(where + ": joint \"" + name + "\" has no range");
+    closed.joints[name] = std::abs(factor) * (factor > 0 ? joint.upper : joint.lower);
+  }
+  return closed;
 }
 
 void GraspWorld::SetQpos(const HandConfiguration& configuration, mjData& data) const {

@@ -65,6 +65,12 @@ class GraspWorld {
   /// @throws InputError  if a name is not a joint of the hand, or a joint that follows no other is
   ///     missing.
   void CheckJoints(const HandConfiguration& configuration, const std::string& where) const;
+  /// Return a configuration after a closing motion (HandGrasp::closing).
+  /// @param where  place in messages.
+  /// @throws InputError  if a name is not a joint of the hand, or a joint has no range.
+  [[nodiscard]] HandConfiguration Closed(const HandConfiguration& configuration,
+                                         const std::map<std::string, double>& closing,
+                                         const std::string& where) const;
 
   /// Place the hand and the object without velocity, with the actuators at the configuration.
   void Place(const HandConfiguration& configuration);
@@ -106,6 +112,10 @@ class GraspWorld {
   static constexpr double kTimestep = 0.004;  ///< seconds
 
  private:
+  /// Return a joint by name.
+  /// @throws InputError  if it is not a joint of the hand.
+  [[nodiscard]] const JointRange& FindJoint(const std::string& name,
+                                            const std::string& where) const;
   void FindParts(const WholeHand& hand);
   void FindFollowers();
   void SetContacts();

@@ -80,7 +80,7 @@ HandGrasp ParseHandGrasp(std::string_view text, const std::string& name) {
   const JsonReader json(value, name);
   json.ExpectFormat(kGraspFormat);
   json.ExpectOnly({"format", "version", "id", "set", "object", "palm", "joints", "pregrasp",
-                   "target", "claimed", "score"});
+                   "target", "closing", "claimed", "score"});
   HandGrasp grasp;
   grasp.id = Name(json.Member("id"));
   if (json.Has("set")) grasp.set = Name(json.Member("set"));
@@ -96,6 +96,10 @@ HandGrasp ParseHandGrasp(std::string_view text, const std::string& name) {
   ReadJoints(value["joints"], joints, grasp.grasp.joints);
   grasp.pregrasp = ReadConfiguration(value, json, "pregrasp", grasp.grasp);
   grasp.target = ReadConfiguration(value, json, "target", grasp.grasp);
+  if (json.Has("closing")) {
+    if (grasp.target) json.Member("closing").Fail("cannot be used with target");
+    ReadJoints(value["closing"], json.Member("closing"), grasp.closing);
+  }
   if (json.Has("claimed")) {
     if (!value["claimed"].is_boolean()) json.Member("claimed").Fail("expected true or false");
     grasp.claimed = value["claimed"].get<bool>();

@@ -23,8 +23,11 @@ struct HandGrasp {
   HandConfiguration grasp;
   std::optional<HandConfiguration> pregrasp;  ///< configuration before the fingers close
   std::optional<HandConfiguration> target;    ///< configuration that the actuators are commanded to
-  std::optional<bool> claimed;                ///< success that the data set claims
-  std::optional<double> score;                ///< score of the data set
+  /// Closing motion without target, by joint: the joint is commanded to this factor of its upper
+  /// limit, or if the factor is negative, to its absolute value times the lower limit.
+  std::map<std::string, double> closing;
+  std::optional<bool> claimed;  ///< success that the data set claims
+  std::optional<double> score;  ///< score of the data set
 };
 
 /// Parse a line of a file of hand grasps.

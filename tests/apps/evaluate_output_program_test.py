@@ -123,7 +123,19 @@ class EvaluateOutput(OutputCase):
                 ["".join(cell.itertext()) for cell in row.iter(XHTML + "td")] for row in rows]
         self.assertEqual(texts["object"], [["box.obj", "1", "1", "0", "1"]])
         self.assertEqual(texts["hand"], [["gripper", "1", "1", "0", "1"]])
-        self.assertEqual(texts["reason"], [["no-contact", "2"]])
+        (reason, count, meaning, remedies), = texts["reason"]
+        self.assertEqual((reason, count), ("no-contact", "2"))
+        self.assertTrue(meaning.startswith("No link is within 1 mm of the surface (analytic)"), meaning)
+        self.assertIn("Check the conventions if most grasps fail.", remedies)
+        self.assertIn("Discard the grasps that fail (2), unless a remedy applies.", self.read("p.html").decode())
+        # The most frequent reason is first. Without failures there is no section.
+        self.evaluated([grasp("a", 0.0), grasp("b", 0.03), grasp("c", 0.03)], "q.html")
+        rows = [["".join(cell.itertext()) for cell in row.iter(XHTML + "td")][:2]
+                for table in self.page("q.html").iter(XHTML + "table") if table.get("class") == "counts reasons"
+                for row in table.iter(XHTML + "tr")][1:]
+        self.assertEqual(rows, [["penetrates", "2"], ["no-contact", "1"]])
+        self.evaluated([grasp("a")], "r.html", code=0)
+        self.assertNotIn("Reasons for failure", self.read("r.html").decode())
 
     def test_hostile_names_are_text(self):
         self.evaluated([grasp(name) for name in HOSTILE], "t.csv", "p.html", code=0)

@@ -124,6 +124,9 @@ class Evaluate(ProgramCase):
             (grasp("x", object={"file": "box.obj", "scale": 0.001}), "a scale of 1 gives"),
             (grasp("x", palm={"position": [0, 0, -50], "quaternion": [1, 0, 0, 0]}), "convert millimetres to metres"),
             (grasp("x", object={"file": "gone.obj", "scale": 1}), "gone.obj"),
+            (grasp("x", closing={"thumb": 1}), '/closing: unknown joint "thumb"'),
+            (grasp("x", target=TARGET, closing={"left_slide": 1}), "/closing: cannot be used with target"),
+            (grasp("x", closing={"left_slide": "1"}), "/closing/left_slide"),
             (grasp("x", pregrap={}), 'unknown member "pregrap"')]
         self.write("grasps.jsonl", hand_grasp_files.lines([bad for bad, _ in cases] + [grasp("good")]))
         done = self.run_program(*self.arguments(protocol="analytic"), "-q")

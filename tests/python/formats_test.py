@@ -3,8 +3,10 @@ documents."""
 
 import contextlib
 import io
+import json
 import os
 import pickle
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -407,6 +409,26 @@ class FormatsTest(RegraspCase):
         if code:
             self.assertEqual(said.getvalue().count("\n"), 1)
         return said.getvalue()
+
+    def test_hand_grasps_of_a_plan_name_its_object(self):
+        plan, output = self.path("plan.json"), self.path("grasps.jsonl")
+        shutil.copy(self.plan, plan)
+
+        def objects(*more):
+            self.convert(plan, "--hand", HAND, "--output", output, *more)
+            with open(output, encoding="utf-8") as file:
+                return [json.loads(line)["object"] for line in file]
+        own = [{"file": "cube.obj", "scale": 1}] * len(self.grasps)
+        self.assertEqual(objects(), own)
+        self.assertEqual(objects("--object", "other.obj", "--scale", "2")[0], {"file": "other.obj", "scale": 2})
+        # A file of this name next to the plan must be the object.
+        shutil.copy(CUBE, self.path("cube.obj"))
+        self.assertEqual(objects(), own)
+        with open(self.path("cube.obj"), "a", encoding="utf-8") as file:
+            file.write("# changed\n")
+        said = self.convert(plan, "--hand", HAND, "--output", output, code=2)
+        self.assertIn("cube.obj is not the object of the plan, expected SHA-256", said)
+        self.assertEqual(objects("--object", "cube.obj"), own)
 
     def test_the_program_goes_from_a_plan_to_verdicts(self):
         said = self.convert(self.plan, "--hand", HAND, "--output", self.path("a.yaml"))

@@ -138,6 +138,7 @@ class HandGraspLinesTest(RegraspCase):
                          ("panda-Mug_0", "multigrippergrasp", {"file": "Mug.obj", "scale": 1.0}, True, False))
         self.assertEqual(first["joints"], {"panda_finger_joint1": 0.02, "panda_finger_joint2": 0.03})
         self.assert_pose(first["palm"], PALM)
+        self.assertEqual(first["closing"], {"panda_finger_joint1": -1, "panda_finger_joint2": -1})
         # Files of the older version have the time until the object fell.
         older = self.multigrippergrasp(fall_time=[3, 2.9], test_duration=3)
         del older["result"]
@@ -151,6 +152,10 @@ class HandGraspLinesTest(RegraspCase):
         joints = self.lines()[0]["joints"]
         self.assertEqual((joints["joint_0_0"], joints["joint_12_0"], joints["joint_1_0"], joints["joint_11_0"]), (0, 1, 4, 15))
         self.assertEqual(len(joints), 16)
+        self.assertEqual(self.lines()[0]["closing"], {"joint_12_0": 0.5, "joint_1_0": 1, "joint_5_0": 1, "joint_9_0": 1,
+                                                      "joint_14_0": 1})
+        for gripper, factors in _multigrippergrasp._CLOSING.items():
+            self.assertEqual(len(factors), len(_multigrippergrasp.JOINT_NAMES[gripper]), gripper)
         for names in _multigrippergrasp.JOINT_NAMES.values():
             self.assertEqual(len(set(names)), len(names))
         # The joints of another gripper have no names.
@@ -162,6 +167,7 @@ class HandGraspLinesTest(RegraspCase):
         grasps = formats.read_multigrippergrasp(self.path("a.json"))
         hand = unittest.mock.Mock(joint_names=[f"joint_{i}.0" for i in range(16)])
         self.assertEqual(convert._with_names_of(hand, grasps).joint_names[:3], ["joint_0.0", "joint_12.0", "joint_4.0"])
+        self.assertEqual(convert._with_names_of(hand, grasps).closing["joint_12.0"], 0.5)
         hand.joint_names = ["other"]
         self.assertEqual(convert._with_names_of(hand, grasps).joint_names, grasps.joint_names)
         hand.joint_names = ["joint_0.0", "joint_0 0"]  # ambiguous

@@ -82,6 +82,30 @@ TEST(PoseGridTest, TracksEndInsideTheGoalSet) {
   EXPECT_LE(std::abs(tracks[0].turn().angle), std::abs(tracks[1].turn().angle));
 }
 
+/// A goal pose after a rotation of 160° is also the end of a rotation by −200°.
+TEST(PoseGridTest, LargeRotationsToAGoalPoseHaveTracksInBothDirections) {
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.translation() = Vector3d(0.01, -0.02, 0.1);
+  const Vector3d centre(0.003, 0.001, -0.002);
+  for (const double degrees : {80.0, 160.0, 180.0}) {
+    Eigen::Isometry3d end = start * Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ());
+    end.translation() += Vector3d(0.004, 0, 0.002);
+    const ObjectTask task(centre, {}, plan::GoalSet(plan::PoseGoal{end, {}, centre}));
+    const std::vector<PoseTrack> tracks = task.Tracks(start);
+    ASSERT_EQ(tracks.size(), degrees > 90 ? 2u : 1u);
+    for (const PoseTrack& track : tracks) {
+      EXPECT_TRUE(track.PoseAt(0).isApprox(start, 1e-12));
+      EXPECT_TRUE(track.PoseAt(track.steps()).isApprox(end, 1e-9));
+    }
+    if (tracks.size() == 1) continue;
+    EXPECT_NEAR(tracks[0].turn().angle - tracks[1].turn().angle, Radians(360), 1e-9);
+    EXPECT_GE(tracks[1].steps(), tracks[0].steps());
+    const Vector3d half = tracks[1].PoseAt(0.5 * tracks[1].steps()).linear() * Vector3d::UnitX();
+    EXPECT_NEAR(half.dot(tracks[0].PoseAt(0.5 * tracks[0].steps()).linear() * Vector3d::UnitX()),
+                -1, 1e-9);
+  }
+}
+
 /// A full rotation begins in its goal set, but only its end is a goal.
 TEST(PoseGridTest, AFullRotationEndsAfterAllButItsTolerance) {
   const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();

@@ -192,6 +192,45 @@ TEST_F(GraspProtocolsTest, TargetsOutsideTheRangesAreCommanded) {
   EXPECT_GT(resisted(0.15), 2 * resisted(0.05));
 }
 
+TEST_F(GraspProtocolsTest, AClosingMotionClosesAnOpenHand) {
+  HandGrasp open = GraspAt(0);
+  const auto fault = [&] {
+    return TestHandGrasp(open, box_, geometry_, {GraspProtocol::kFall}, {}, world_).fault();
+  };
+  EXPECT_EQ(fault(), GraspFault::kNoContact);
+  open.closing = {{"left", 1}};
+  EXPECT_EQ(fault(), GraspFault::kNone);
+  // The box is between 0.025 and the upper limit, 0.05: half of it does not press.
+  EXPECT_NEAR(world_.Closed(open.grasp, {{"left", 0.25}}, "").joints.at("left"), 0.0125, 1e-12);
+  open.closing = {{"left", 0.25}};
+  EXPECT_EQ(fault(), GraspFault::kNoContact);
+  // Negative factors are those of the lower limit.
+  GraspWorld world(
+      ReadGripper(Replaced(kGripper, R"(range="0 0.05" damp)", R"(range="-0.02 0.05" damp)")), box_,
+      1);
+  EXPECT_NEAR(world.Closed(open.grasp, {{"left", -0.5}}, "").joints.at("left"), -0.01, 1e-12);
+}
+
+TEST_F(GraspProtocolsTest, ClosingMotionsOfUnknownOrUnlimitedJointsAreBadInput) {
+  HandGrasp grasp = GraspAt(0);
+  const auto message = [&](const WholeHand& hand, const GraspWorld& world) {
+    try {
+      CheckGraspConventions(grasp, hand, box_, world, "line 3");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  grasp.closing = {{"left", 1}};
+  EXPECT_EQ(message(hand_, world_), "");
+  grasp.closing = {{"thumb", 1}};
+  EXPECT_THAT(message(hand_, world_), HasSubstr("line 3: /closing: unknown joint \"thumb\""));
+  grasp.closing = {{"left", 1}};
+  const WholeHand free = ReadGripper(Replaced(kGripper, R"(range="0 0.05" damp)", "damp"));
+  EXPECT_THAT(message(free, GraspWorld(free, box_, 1)),
+              HasSubstr("/closing: joint \"left\" has no range"));
+}
+
 TEST_F(GraspProtocolsTest, LinksThatPenetrateEachOtherFailTheBench) {
   // The fingers meet in front of the object: at 0.04 they overlap by 4 mm, at 0.046 by 16 mm.
   const std::string box = R"(type="box" size="0.005 0.01 0.01")";
