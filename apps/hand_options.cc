@@ -226,7 +226,7 @@ void HandOptions::AddTo(CLI::App& app) {
       "Contacts of in-hand motions [default: off]\n"
       "off: fixed on the object; real fingertips roll and deviate from them\n"
       "on: fingertips roll without slipping. The plan has the rolled contacts, and every "
-      "grasp on the way is force closure");
+      "grasp between them is force closure");
   app.add_option("--continue", continue_plan,
                  "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")

@@ -257,7 +257,7 @@ struct SearchConfig {
   }
 };
 
-/// Return the gait as it is planned: with rolling contacts if the request asks for them.
+/// Return the gait as it is planned: with rolling contacts if the request requires them.
 /// @param merged  gait with merged in-hand motions.
 RolledGait AsPlanned(const HandSetup& setup, const GaitRequest& request,
                      const collision::BallContact& surface, const Gait& merged) {

@@ -142,7 +142,7 @@ class ContactRoller {
     return true;
   }
 
-  /// Return whether force closure is proved on the way between two grasps of the same fingers.
+  /// Return whether force closure is proved between two grasps of the same fingers.
   [[nodiscard]] bool IsForceClosure(const plan::FingerGrasp& from,
                                     const plan::FingerGrasp& to) const {
     motion::GraspMotion motion;

@@ -23,7 +23,7 @@ struct RolledGait {
 /// A gait of the search keeps every contact at a fixed point of the object while the object
 /// rotates. A real fingertip rolls there, by its radius times the rotation, up to centimetres. This
 /// function repeats the gait with rolling contacts: the object moves as before, the joints follow
-/// the contacts, and fingers leave from where they have rolled to. Placed fingers reach the
+/// the contacts, and fingers leave from their rolled contacts. Placed fingers reach the
 /// contacts of the gait.
 ///
 /// In a step of the object by at most 0.02 rad and 1 mm, a contact rolls by Δθ × (r n) and remains

@@ -97,7 +97,7 @@ struct CheckContext {
 [[nodiscard]] StepCheck CheckHold(const CheckContext& context);
 [[nodiscard]] StepCheck CheckSwitch(const CheckContext& context, const FingerGrasp& before,
                                     const Switch& step);
-/// Check an in-hand motion. If fingertips roll, every grasp on the way is on the surface and force
+/// Check an in-hand motion. If fingertips roll, every grasp of it is on the surface and force
 /// closure. Whether they roll without slipping depends on the hand (sim/hand/check_hand.h). If
 /// contacts are fixed, the hand's motion is checked only for whether gravity keeps the object on
 /// the fingers.

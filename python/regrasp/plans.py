@@ -314,8 +314,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         if isinstance(gravity, str) and goals is not None:
             raise InputError('gravity "any" cannot be used with goals, which depend on the direction of gravity')
         task.ups = _ups(gravity, hand)
-    if rolling and (goal is not None or closure == "gravity"):
-        raise InputError(f"rolling cannot be used with {'goal' if goal is not None else 'closure gravity'}")
+    for name, given_too in (("goal", goal is not None), ('closure="gravity"', closure == "gravity")):
+        if rolling and given_too:
+            raise InputError(f"rolling cannot be used with {name}")
     task.rolls = bool(rolling)
     task.gravity_support = _arguments.choice("closure", closure, ["force", "gravity"]) == "gravity"
     given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, ["steps", "margin"]))

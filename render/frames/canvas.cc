@@ -60,8 +60,8 @@ void DrawSolid(const ShapePainter& painter, const Solid& solid) {
   painter.DrawOpaque(solid.shapes);
 }
 
-/// Draw a solid and the shapes over it even if it hides them. The alpha of its samples is 1, and 0
-/// where an opaque shape is.
+/// Draw a solid and the shapes over it even if it hides them. The alpha of its samples is 0 at
+/// opaque shapes and 1 otherwise.
 void DrawXray(const ShapePainter& painter, const Drawing& drawing) {
   DrawSolid(painter, *drawing.solid);
   gl().Clear(GL_DEPTH_BUFFER_BIT);

@@ -99,7 +99,7 @@ std::string Describe(const plan::Align& step, Names names) {
 }
 
 /// Return "move: rotate the object by 38°", or "move: translate the object by 2.1 mm" if it does
-/// not rotate. Says if fingertips roll.
+/// not rotate, with a note if fingertips roll.
 std::string Describe(const plan::Move& step, Names /*names*/) {
   if (step.path.empty()) return "move";
   const Eigen::Isometry3d& from = step.path.front().pose;

@@ -67,7 +67,7 @@ std::optional<HandFinding> RollingCheck::FindContactBeside(std::size_t state,
     }
     if (touches && deepest < kTouchTolerance) continue;
     const std::string what = touches
-                                 ? FormatLength(deepest) + " inside the surface beside its contact"
+                                 ? FormatLength(deepest) + " inside the surface next to its contact"
                                  : "not on the surface";
     return FindingAtTip(body_, move_.path[state], held.finger, plan::Reason::kTipOffContact,
                         "the rolling fingertip of " + FingerText(body_.hand(), held.finger) +

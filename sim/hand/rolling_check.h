@@ -24,8 +24,8 @@ inline constexpr double kMostRollingSlip = 1e-4;
 /// - Fingertips do not slip. The slip is the integral of the velocity of the fingertip's material
 ///   point at the contact, relative to the object. For a sphere of radius r that rotates relative
 ///   to the object by Δθ and whose centre moves by Δc, it is Δc − Δθ × (r n), without its component
-///   along the outward normal n (Montana 1988). Rotation about the normal is no slip. Kinematics
-///   are those of the engine, not of the planner.
+///   along the outward normal n (Montana 1988). Rotation about the normal does not count.
+///   Kinematics are those of the engine, not of the planner.
 class RollingCheck {
  public:
   /// @param surface  triangles of the object in its own frame, metres.

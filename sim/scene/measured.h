@@ -59,7 +59,7 @@ struct HandMeasures {
   double slip_m = 0;  ///< largest slide of a holding fingertip
   double roll_m = 0;  ///< largest travel of a contact on the object while its finger holds
   /// Largest distance of a contact in the static grasp from its place in the plan. Without rolling
-  /// in the plan it includes the way that contacts roll.
+  /// in the plan it includes the distance that contacts roll.
   double contact_off_m = 0;
   double torque_share = 0;     ///< largest torque of an actuator over its limit
   double torque_Nm = 0;        ///< largest torque about an independent joint

@@ -10,7 +10,8 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv[1])
 # Sentinels, texts and the layout of seeds are no parameters of the method.
-NO_PARAMETERS = {"kFewestGrasps", "kNone", "kNoNode", "kRating", "kSimulating", "kStreamShift"}
+NO_PARAMETERS = {"kFewestGrasps", "kNone", "kNoNode", "kRating", "kRollingShift", "kSimulating",
+                 "kStreamShift"}
 
 
 def defined(text):

@@ -73,7 +73,7 @@ TEST(CheckRolling, TheFirstContactsAreThoseBeforeTheStep) {
   EXPECT_EQ(CheckOf(plan).reason, Reason::kDiscontinuous);
 }
 
-/// Both ends are force closure, and a grasp on the way is not.
+/// Both ends are force closure, and a grasp between them is not.
 TEST(CheckRolling, EveryGraspOnTheWayIsForceClosure) {
   // The line between two opposite contacts must be in both friction cones of 20°.
   const auto hold = [](double x) {

@@ -137,7 +137,7 @@ TEST(RollingCheckTest, ATiltedNormalIsAFault) {
   EXPECT_FALSE(plan::CheckPlan(RolledCube(), plan, {}).passed());
 }
 
-/// The contact is on the surface, but the sphere is inside a ridge of the surface beside it.
+/// The contact is on the surface, but the sphere is inside a ridge of the surface next to it.
 TEST(RollingCheckTest, AFingertipInsideTheSurfaceBesideItsContactIsAFault) {
   plan::Plan plan = RollingPlan();
   const plan::Move& move = FirstRolling(plan);
@@ -149,17 +149,17 @@ TEST(RollingCheckTest, AFingertipInsideTheSurfaceBesideItsContactIsAFault) {
     for (const int corner : corners) points.push_back(plan.scale * RolledCube().vertices()[corner]);
     surface.push_back(MakeConvexBody(std::move(points), 0));
   }
-  EXPECT_FALSE(RollingCheck(body, surface, plan.scale, move).Check(0, "at first", ""));
+  EXPECT_FALSE(RollingCheck(body, surface, plan.scale, move).Check(0, "in state 0", ""));
   const plan::FingerContact& held = move.contacts.front().front();
   const double radius = file.hand.fingers[held.finger].tip.radius;
   const Vector3d aside = held.contact.n.unitOrthogonal();
   const Vector3d side =
       plan.scale * held.contact.p - radius * held.contact.n + 0.8 * radius * aside;
   surface.push_back(MakeConvexBody({side, side + 1e-4 * aside, side + 1e-4 * held.contact.n}, 0));
-  const auto finding = RollingCheck(body, surface, plan.scale, move).Check(0, "at first", "");
+  const auto finding = RollingCheck(body, surface, plan.scale, move).Check(0, "in state 0", "");
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->reason, Reason::kTipOffContact);
-  EXPECT_THAT(finding->detail, HasSubstr("beside its contact"));
+  EXPECT_THAT(finding->detail, HasSubstr("next to its contact"));
 }
 
 TEST(RollingCheckTest, AMissingFingerIsAFault) {
