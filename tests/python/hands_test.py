@@ -102,6 +102,18 @@ class HandsTest(RegraspCase):
         self.assertTrue(report.passed, report)
         self.assertEqual([row["verdict"] for row in report.data["goals"]], ["pass", "pass"])
 
+    def test_fingertips_roll_if_required(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 45), rolling=True)
+        moves = [step for step in plan.steps if step["kind"] == "move"]
+        self.assertTrue(moves)
+        for move in moves:
+            self.assertEqual(len(move["contacts"]), len(move["path"]))
+        self.assertTrue(regrasp.validate(self.cube, plan, hand=self.hand).passed)
+        with self.assertRaisesRegex(regrasp.InputError, "help: pass --hand ring4.json"):
+            regrasp.validate(self.cube, plan)
+        with self.assertRaisesRegex(regrasp.InputError, "rolling cannot be used with closure"):
+            regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 45), rolling=True, closure="gravity")
+
     def test_any_number_of_searches_at_a_time_finds_the_same_plan(self):
         told = []
         plans = [regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 120), jobs=jobs,
