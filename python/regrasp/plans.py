@@ -314,10 +314,10 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         if isinstance(gravity, str) and goals is not None:
             raise InputError('gravity "any" cannot be used with goals, which depend on the direction of gravity')
         task.ups = _ups(gravity, hand)
+    task.rolls = _arguments.flag("rolling", rolling)
     for name, given_too in (("goal", goal is not None), ('closure="gravity"', closure == "gravity")):
-        if rolling and given_too:
+        if task.rolls and given_too:
             raise InputError(f"rolling cannot be used with {name}")
-    task.rolls = bool(rolling)
     task.gravity_support = _arguments.choice("closure", closure, ["force", "gravity"]) == "gravity"
     given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, ["steps", "margin"]))
     words = ["preferred", "required", "standard", "none"]

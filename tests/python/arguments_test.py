@@ -100,7 +100,7 @@ class ArgumentsTest(RegraspCase):
 
     def test_of_plans_in_hands(self):
         self.check(regrasp.plan_in_hand, object=self.cube, hand=self.hand, mu=0.8, turn=("z", 5),
-                   start=None, goal=None, start_pose=None, reserve="none", clearance=0.001, seed=0,
+                   start=None, goal=None, start_pose=None, rolling=False, reserve="none", clearance=0.001, seed=0,
                    min_quality=0.01, time_limit=0.2, jobs=1, progress=None)
 
     def test_of_validation(self):
