@@ -221,12 +221,11 @@ void HandOptions::AddTo(CLI::App& app) {
                   "force: every grasp is force closure\n"
                   "gravity: a grasp may also hold the object by its weight, with forces of up to 9 "
                   "weights, against disturbances of 0.1 weights");
-  AddChoice<bool>(
-      app, "--rolling", rolls, {{"on", true}, {"off", false}},
-      "Contacts of in-hand motions [default: off]\n"
-      "off: fixed on the object; real fingertips roll and deviate from them\n"
-      "on: fingertips roll without slipping. The plan has the rolled contacts, and every "
-      "grasp between them is force closure");
+  AddChoice<bool>(app, "--rolling", rolls, {{"on", true}, {"off", false}},
+                  "Contacts of in-hand motions [default: off]\n"
+                  "off: fixed on the object; real fingertips roll and deviate from them\n"
+                  "on: fingertips roll without slipping. The plan has the rolled contacts, and all "
+                  "its grasps are force closure");
   app.add_option("--continue", continue_plan,
                  "Plan to continue. Its last object pose, contacts and joint angles are the start. "
                  "Hand, object and --scale must be those of that plan")
