@@ -27,11 +27,22 @@ void ProjectAll(const object::Object& object, FingerGrasp& grasp) {
   for (FingerContact& held : grasp) held.contact = ProjectContact(object, held.contact).contact;
 }
 
+/// Largest difference of normals that are equal up to rounding. If they differed, the contact would
+/// turn between two states, without a direction.
+constexpr double kSameNormal = 1e-9;
+
 /// Set the faces of rolled contacts. Points and normals stay as they are, because the fingertips
-/// are at them to a micrometre. Contacts on edges have no face.
-void FindFaces(const object::Object& object, FingerGrasp& grasp) {
-  for (FingerContact& held : grasp) {
-    held.contact.face = ProjectContact(object, held.contact).contact.face;
+/// are at them to a micrometre; only normals that are equal up to rounding become equal. Contacts
+/// on edges have no face.
+void LocateRolled(const object::Object& object, std::vector<FingerGrasp>& states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    for (FingerContact& held : states[i]) {
+      held.contact.face = ProjectContact(object, held.contact).contact.face;
+      const FingerContact* last = i == 0 ? nullptr : FindFinger(states[i - 1], held.finger);
+      if (last != nullptr && (held.contact.n - last->contact.n).norm() < kSameNormal) {
+        held.contact.n = last->contact.n;
+      }
+    }
   }
 }
 
@@ -136,7 +147,7 @@ Plan ProjectPlan(const object::Object& object, const Plan& plan) {
     } else if (auto* align = std::get_if<Align>(&step)) {
       ProjectAlign(object, *align);
     } else {
-      for (FingerGrasp& rolled : std::get<Move>(step).contacts) FindFaces(object, rolled);
+      LocateRolled(object, std::get<Move>(step).contacts);
     }
   }
   for (grasp::Contact& contact : projected.goal) contact = ProjectContact(object, contact).contact;

@@ -97,6 +97,22 @@ TEST(CheckRolling, EveryGraspOnTheWayIsForceClosure) {
   EXPECT_GT(near.required->lower, CheckPlan(MakeCube(), plan).steps.at(0).required->upper);
 }
 
+/// Normals that differ by rounding, or by their length only, do not turn.
+TEST(CheckRolling, RoundingOfNormalsIsNoRotation) {
+  const double down = std::nextafter(-1.0, 0.0);
+  const std::vector<grasp::Contact> contacts = {
+      kStart, {{0, 1, 0.1}, {1e-17, down, -1e-17}}, {{0, 1, 0.2}, {0, -1, 1e-16}}};
+  const Plan projected = ProjectPlan(MakeCube(), RollOnTop(contacts));
+  for (const FingerGrasp& grasp : std::get<Move>(projected.steps[0]).contacts) {
+    EXPECT_EQ(grasp[4].contact.n, kStart.n);
+    EXPECT_TRUE(grasp[4].contact.face.valid());
+  }
+  EXPECT_EQ(ReasonOf(RollOnTop(contacts)), Reason::kNone);
+  // A rotation of a microradian remains.
+  const Plan turned = ProjectPlan(MakeCube(), RollOnTop({OnEdge(0), OnEdge(Degrees(1e-6))}));
+  EXPECT_NE(std::get<Move>(turned.steps[0]).contacts[1][4].contact.n, OnEdge(0).n);
+}
+
 TEST(CheckRolling, GraspAfterTheStepHasTheRolledContacts) {
   const Plan plan = RollOnTop({kStart, OnEdge(0), OnEdge(45)});
   const FingerGrasp after = GraspAfter(plan.initial, plan.steps[0]);
