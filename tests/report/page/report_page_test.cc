@@ -264,7 +264,8 @@ TEST(ReportPageTest, TheVerdictOfTrialsNamesTheirNumbers) {
   EXPECT_THAT(fails, HasSubstr("<title>Fail in 6 of 20 trials: plan.json</title>"));
   EXPECT_THAT(fails, HasSubstr("<strong>Fail in 6 of 20 trials</strong>"));
   EXPECT_THAT(fails, HasSubstr("6 of 20 trials with noise fail: 6 slipped."));
-  EXPECT_THAT(fails, HasSubstr("--trials min-pass-rate requires 100 %"));
+  EXPECT_THAT(fails,
+              HasSubstr("<span class=\"option\">--trials</span> min-pass-rate requires 100 %"));
   EXPECT_THAT(fails, Not(HasSubstr("<strong>Pass")));
   trials.options.min_pass_rate = 0.5;
   const std::string passes = FormatReportHtml(scene.report, scene.plan, {});
