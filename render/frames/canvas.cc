@@ -1,7 +1,6 @@
 #include "render/frames/canvas.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -60,12 +59,24 @@ void DrawSolid(const ShapePainter& painter, const Solid& solid) {
   painter.DrawOpaque(solid.shapes);
 }
 
-/// Draw a solid and the shapes over it even if it hides them. The alpha of its samples is 0 at
-/// opaque shapes and 1 otherwise.
+/// Draw a solid, and the rims of the veil and the shapes over it even if it hides them.
 void DrawXray(const ShapePainter& painter, const Drawing& drawing) {
   DrawSolid(painter, *drawing.solid);
+  if (drawing.veil && !drawing.veil->rims.empty()) {
+    gl().Clear(GL_DEPTH_BUFFER_BIT);
+    SetMask(false, false);
+    for (const Shape& shape : drawing.veil->shapes) painter.Draw(shape);
+    SetMask(true, false);
+    gl().Enable(GL_BLEND);
+    for (Shape rim : drawing.veil->rims) {
+      rim.opacity = kHiddenRimOpacity;
+      painter.Draw(rim);
+    }
+    gl().Disable(GL_BLEND);
+  }
   gl().Clear(GL_DEPTH_BUFFER_BIT);
-  painter.DrawOpaque(drawing.shapes, /*alpha=*/false);
+  SetMask(true, false);
+  painter.DrawOpaque(drawing.shapes);
   painter.BlendTranslucent(drawing.shapes);
   gl().Finish();
 }
@@ -80,40 +91,17 @@ void DrawWithSolid(const ShapePainter& painter, const Drawing& drawing) {
   gl().Finish();
 }
 
-/// Return an opacity whose alpha is odd for a rim and even for other shapes.
-double MarkedOpacity(double opacity, bool is_rim) {
-  const auto alpha = static_cast<int>(std::lround(kFullAlpha * opacity));
-  const bool is_odd = alpha % 2 != 0;
-  const int marked = is_odd == is_rim ? alpha : alpha > 0 ? alpha - 1 : 1;
-  return static_cast<double>(marked) / kFullAlpha;
-}
-
-bool IsRim(const unsigned char* sample) { return sample[3] % 2 != 0; }
-
-/// Draw a veil alone. The alpha of its samples is their opacity, which marks rims (MarkedOpacity),
-/// and 0 elsewhere.
-void DrawVeil(const ShapePainter& painter, const Veil& veil) {
-  ClearAll();
-  SetMask(true, true);
-  const auto draw = [&](Shape shape, bool is_rim) {
-    shape.opacity = MarkedOpacity(shape.opacity, is_rim);
-    painter.Draw(shape);
-  };
-  for (const Shape& shape : veil.shapes) draw(shape, false);
-  // The shapes hide nearly all of the rims.
-  for (const Shape& shape : veil.rims) draw(shape, true);
-  gl().Finish();
-}
-
-/// Set the alpha of a veil, which is the present image, to 0 where opaque shapes or the solid hide
-/// it.
-void HideVeil(const ShapePainter& painter, const Drawing& drawing) {
+/// Add a veil to the present image. The alpha of its visible samples is their opacity, and 0
+/// elsewhere.
+void AddVeil(const ShapePainter& painter, const Veil& veil) {
   SetMask(false, true);
-  gl().DepthFunc(GL_LESS);
-  painter.DrawOpaque(drawing.solid->shapes, /*alpha=*/false);
-  painter.DrawOpaque(drawing.shapes, /*alpha=*/false);
-  gl().DepthFunc(GL_LEQUAL);
+  gl().Clear(GL_COLOR_BUFFER_BIT);
+  // The shapes hide nearly all of the rims, which need no colours there.
+  SetMask(false, false);
+  for (const Shape& shape : veil.shapes) painter.Draw(shape);
   SetMask(true, true);
+  for (const Shape& shape : veil.rims) painter.Draw(shape);
+  for (const Shape& shape : veil.shapes) painter.Draw(shape);
   gl().Finish();
 }
 
@@ -146,29 +134,6 @@ void AddSamples(const unsigned char* samples, int width, int rows, int factor, i
     for (int x = 0; x < row; out += 3) {
       for (int i = 0; i < factor; ++i, x += 4) {
         for (int channel = 0; channel < 3; ++channel) out[channel] += weight * column[x + channel];
-      }
-    }
-  }
-}
-
-/// Average a band of RGBA samples, from bottom to top, to pixels.
-/// @param out  first pixel of the band.
-void AverageSamples(const unsigned char* samples, int width, int rows, int factor,
-                    unsigned char* out) {
-  const int row = 4 * width;
-  const int count = factor * factor;
-  std::vector<std::uint16_t> column(row);  // sums over the sample rows of one pixel row
-  for (int bottom = rows; bottom > 0; bottom -= factor) {
-    std::ranges::fill(column, 0);
-    for (int k = 1; k <= factor; ++k) {
-      const unsigned char* in = samples + std::size_t(row) * (bottom - k);
-      for (int i = 0; i < row; ++i) column[i] += in[i];
-    }
-    for (int x = 0; x < row; x += 4 * factor) {
-      for (int channel = 0; channel < 3; ++channel) {
-        int sum = 0;
-        for (int i = 0; i < factor; ++i) sum += column[x + 4 * i + channel];
-        *out++ = static_cast<unsigned char>((2 * sum + count) / (2 * count));
       }
     }
   }
@@ -301,22 +266,19 @@ class Canvas::Impl {
   /// Compose the samples of a drawing with a solid.
   const std::vector<unsigned char>& ComposeSolid(const ShapePainter& painter,
                                                  const Drawing& drawing, const SampleBand& band) {
-    if (drawing.veil) {
-      DrawVeil(painter, *drawing.veil);
-      CopySamples(band, rims_);
-      HideVeil(painter, drawing);
+    DrawWithSolid(painter, drawing);
+    CopySamples(band, samples_);
+    if (drawing.veil) {  // it needs the depths of the drawing
+      AddVeil(painter, *drawing.veil);
       CopySamples(band, veil_);
       FadeInWindows(drawing.veil->windows, band, veil_);
     }
-    DrawWithSolid(painter, drawing);
-    CopySamples(band, samples_);
     LayXray(painter, drawing, band);
     if (drawing.veil) LayVisible(veil_, samples_);
     return samples_;
   }
 
-  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has the
-  /// rims of a veil, even if the solid hides them.
+  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there.
   void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band) {
     const SampleBox box = VisibleBox(samples_, band);
     if (box.empty()) return;
@@ -324,18 +286,12 @@ class Canvas::Impl {
     gl().Enable(GL_SCISSOR_TEST);
     DrawXray(painter, drawing);
     gl().Disable(GL_SCISSOR_TEST);
-    const unsigned char* seen = context_.pixels().data();
+    const unsigned char* xray = context_.pixels().data();
     const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
-    const auto rim = static_cast<int>(std::lround(kFullAlpha * kHiddenRimOpacity));
     for (int y = box.bottom; y < box.top; ++y) {
       const std::size_t row = std::size_t(y) * band.width;
       for (std::size_t i = 4 * (row + box.left); i < 4 * (row + box.right); i += 4) {
-        if (samples_[i + 3] == 0) continue;
-        std::array<unsigned char, 4> xray;
-        std::copy_n(&seen[i], xray.size(), xray.begin());
-        const bool has_rim = drawing.veil && xray[3] != 0 && IsRim(&rims_[i]);
-        if (has_rim) Lay(&rims_[i], rim, xray.data());
-        Lay(xray.data(), share, &samples_[i]);
+        if (samples_[i + 3] != 0) Lay(&xray[i], share, &samples_[i]);
       }
     }
   }
@@ -386,22 +342,25 @@ class Canvas::Impl {
     gl().Viewport(0, 0, samples.width, samples.rows);
     SetCamera(camera, band);
     const ShapePainter painter(camera, *meshes_);
-    unsigned char* const out = image.rgb.data() + std::ptrdiff_t{3} * width_ * band.top;
-    const auto average = [&](const std::vector<unsigned char>& composed) {
-      AverageSamples(composed.data(), samples.width, samples.rows, factor_, out);
-    };
-    if (drawing.solid) return average(ComposeSolid(painter, drawing, samples));
-    if (drawing.veil) return average(ComposeLayers(painter, drawing, samples));
     std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
     const auto add = [&](const unsigned char* from, int weight) {
       AddSamples(from, samples.width, samples.rows, factor_, weight, sums);
     };
-    const std::vector<int> weights = WeightsOf(drawing.layers);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      DrawPass(painter, drawing, i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
-      add(context_.pixels().data(), weights[i]);
+    if (drawing.solid) {
+      add(ComposeSolid(painter, drawing, samples).data(), kOne);
+    } else if (drawing.veil) {
+      add(ComposeLayers(painter, drawing, samples).data(), kOne);
+    } else {
+      const std::vector<int> weights = WeightsOf(drawing.layers);
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        DrawPass(painter, drawing,
+                 i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
+        add(context_.pixels().data(), weights[i]);
+      }
     }
-    const auto write = [&](const auto& mean) { std::ranges::transform(sums, out, mean); };
+    const auto write = [&](const auto& mean) {
+      std::ranges::transform(sums, image.rgb.begin() + std::ptrdiff_t{3} * width_ * band.top, mean);
+    };
     const std::uint32_t all = kOne * factor_ * factor_;
     const int shift = std::countr_zero(all);
     if (std::has_single_bit(all)) {
@@ -417,7 +376,7 @@ class Canvas::Impl {
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
-  std::vector<unsigned char> samples_, veil_, rims_;  ///< buffers of ComposeSolid
+  std::vector<unsigned char> samples_, veil_;  ///< buffers of ComposeSolid
 };
 
 Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)
