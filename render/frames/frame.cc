@@ -84,8 +84,7 @@ class FrameRenderer::Impl {
       : model_(object, scale, friction_angle, snapshots, options),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(model_, snapshots)),
-        canvas_(model_.CanvasMeshes(1 / cameras_.common.PixelsPerUnit(Vector3d::Zero())), width(),
-                height(), options.supersampling) {}
+        canvas_(model_.CanvasMeshes(), width(), height(), options.supersampling) {}
 
   [[nodiscard]] int width() const { return cameras_.common.width; }
   [[nodiscard]] int height() const { return cameras_.common.height; }

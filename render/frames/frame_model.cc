@@ -97,12 +97,10 @@ std::vector<Shape> FrameModel::FingerShapes(const std::vector<FingerGlyph>& fing
   return shapes;
 }
 
-std::vector<ShadedMesh> FrameModel::CanvasMeshes(double per_pixel) const {
+std::vector<ShadedMesh> FrameModel::CanvasMeshes() const {
   std::vector<ShadedMesh> all = meshes;
   if (!options.hand) return all;
-  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame, kLinkDetail * per_pixel)) {
-    all.push_back(std::move(mesh));
-  }
+  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame)) all.push_back(std::move(mesh));
   return all;
 }
 

@@ -32,8 +32,7 @@ struct FrameModel {
                                                   bool free_fingers) const;
   [[nodiscard]] std::vector<Shape> FingerShapes(const std::vector<FingerGlyph>& fingers) const;
   /// Return all meshes of the canvas.
-  /// @param per_pixel  size of a pixel, in diameters. The links of a hand have no smaller details.
-  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes(double per_pixel) const;
+  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes() const;
   /// Return whether the object is drawn opaque.
   [[nodiscard]] bool opaque() const { return !planar && !options.glass; }
 

@@ -22,21 +22,10 @@ struct HandLinkView {
 /// The links of a hand in frames, in the order of plan::Snapshot::links_W, which has their poses.
 using HandView = std::vector<HandLinkView>;
 
-/// Size of the details of links that are omitted, pixels. It bounds a sum of squared distances, so
-/// that surfaces differ by less.
-inline constexpr double kLinkDetail = 0.7;
-
-/// Return the drawn meshes of the links, in normalized units.
-/// @param tolerance  size of the details that are omitted, in normalized units (ReduceDetail).
-[[nodiscard]] std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand,
-                                                     const NormalizedFrame& frame,
-                                                     double tolerance = 0);
-
 /// Return the canvas meshes of a hand, in normalized units. Each link has a dark shell, of which
-/// only the rim is visible as outline, and then its mesh (MakeLinkMeshes).
+/// only the rim is visible as outline, and then its mesh.
 [[nodiscard]] std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand,
-                                                     const NormalizedFrame& frame,
-                                                     double tolerance = 0);
+                                                     const NormalizedFrame& frame);
 
 /// The drawing of a hand without its meshes, which can be large.
 class HandFigure {
