@@ -121,7 +121,7 @@ class Animation(ProgramCase):
         if not replays:
             return None, b""
         self.assertEqual(len(replays), 1)
-        shown = [element for element in replays[0] if element.get("src")]
+        shown = [element for element in replays[0].iter() if element.get("src")]
         self.assertEqual(len(shown), 1)
         head, body = shown[0].get("src").split(";base64,")
         return shown[0].tag.removeprefix(XHTML) + " " + head, base64.b64decode(body)
@@ -134,7 +134,7 @@ class Animation(ProgramCase):
             self.assertEqual(self.replay_on_page(), (element, self.read(name)))
             self.assertIn(b"media-src data:;", self.read("result/report.html"))
         self.assert_done(*self.of_grasp(*SMALL, "--frames", "animation", "--video", "film.mp4"))
-        self.assertEqual(self.replay_on_page(), ("img data:image/webp", self.replay()))
+        self.assertEqual(self.replay_on_page(), ("video data:video/mp4", self.read("film.mp4")))
         self.assert_done(*self.of_grasp("--frames", "none"))
         self.assertEqual(self.replay_on_page(), (None, b""))
 
