@@ -88,11 +88,10 @@ void AddEvaluateOptions(CLI::App& app, EvaluateOptions& options, std::string& pa
   AddQuiet(app, options.quiet);
   AddExplain(app, {EvaluateReasons(), "evaluation of a hand grasp", "grasp_failure_reasons"});
   app.footer(
+      "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --output reports.jsonl\n"
       "  evaluate --grasps grasps.jsonl --hand hand.json --object objects --protocol "
       "fall,disturbance -o "
-      "reports.jsonl -o reports.html\n"
-      "  evaluate --grasps dataset --hand hand.json --object objects -o reports.jsonl -o "
-      "reports.html\n");
+      "reports.jsonl -o reports.html\n");
 }
 
 }  // namespace

@@ -85,6 +85,7 @@ LEFT = {
     "conditions": ["out/turn/report.html"],
     "hand_engines": ["out/turn/report.html"],
     "hand_replay": ["out/turn/report.html"],
+    "rolling": ["turn.json", "out/turn/report.html"],
     "rotate_a_cube": ["out/half/report.html", "out/slippery/report.json"],
     "robustness_trials": ["out/plan/report.json"],
     "protocols_and_engines": ["out/plan/report.json"],
