@@ -157,6 +157,34 @@ TEST(HandFrames, AllFramesShareTheViewpointAndTheScale) {
   EXPECT_NE(renderer.Render(snapshots[0]).rgb, make({}).Render(snapshots[0]).rgb);
 }
 
+/// A link inside the object shows at most as faint lines, and the object keeps its colours.
+TEST(HandFrames, TheObjectIsOpaque) {
+  plan::Snapshot snapshot = Holding({0, 0, 0});
+  snapshot.links_W = {*snapshot.X_WP};
+  const auto draw = [&](double radius) {
+    FrameOptions options{320, 240, 1};
+    options.hand = std::make_shared<const HandView>(
+        HandView{{{FingerIndex(), 0}, false, MakeCapsule({0, 0, 0}, {0, 0, 0}, radius)}});
+    return FrameRenderer(MakeCube(), 1, 0.3, {snapshot}, options).Render(snapshot);
+  };
+  const Image large = draw(0.9);
+  const Image small = draw(0.01);
+  ASSERT_EQ(large.rgb.size(), small.rgb.size());
+  constexpr int kFaint = 64;
+  int colored = 0;
+  int different = 0;
+  for (std::size_t i = 0; i < large.rgb.size(); i += 3) {
+    const auto [least, most] = std::minmax({large.rgb[i], large.rgb[i + 1], large.rgb[i + 2]});
+    if (least > 90 && most - least > 12) ++colored;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      if (std::abs(large.rgb[k] - small.rgb[k]) > kFaint) ++different;
+    }
+  }
+  const int pixels = large.width * large.height;
+  EXPECT_GT(colored, pixels / 10);
+  EXPECT_LT(different, pixels / 200);
+}
+
 TEST(HandFrames, AnInHandMotionShowsTheFormerPose) {
   const object::Polyhedron cube = MakeCube();
   std::vector<plan::Snapshot> snapshots = {Holding(), Holding()};
