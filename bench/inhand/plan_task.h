@@ -22,8 +22,9 @@ struct TaskStart {
 
 /// How plans hold the object; the default is that of the program `plan`.
 struct HoldingWay {
-  std::optional<plan::GravitySupport> gravity_support = {};  ///< set: its weight may hold it, too
-  bool rolls = false;                                        ///< whether fingertips roll
+  /// Set if grasps may hold the object by its weight.
+  std::optional<plan::GravitySupport> gravity_support = {};
+  bool rolls = false;  ///< whether fingertips roll
 };
 
 struct PlannedTask {

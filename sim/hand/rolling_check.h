@@ -53,7 +53,7 @@ class RollingCheck {
   std::span<const ConvexBody> surface_;
   double scale_;
   const plan::Move& move_;
-  std::map<FingerIndex, Eigen::Vector3d> slip_O_;  ///< slip so far, metres
+  std::map<FingerIndex, Eigen::Vector3d> slip_O_;  ///< slip since the start of the motion, metres
 };
 
 }  // namespace regrasp::sim

@@ -128,7 +128,7 @@ class EvaluateOutput(OutputCase):
         self.assertTrue(meaning.startswith("No link is within 1 mm of the surface (analytic)"), meaning)
         self.assertIn("Check the conventions if most grasps fail.", remedies)
         self.assertIn("Discard the grasps that fail (2), unless a remedy applies.", self.read("p.html").decode())
-        # The most frequent reason is first. Without failures there is no section.
+        # The most frequent reason is first. A page without failures has no section.
         self.evaluated([grasp("a", 0.0), grasp("b", 0.03), grasp("c", 0.03)], "q.html")
         rows = [["".join(cell.itertext()) for cell in row.iter(XHTML + "td")][:2]
                 for table in self.page("q.html").iter(XHTML + "table") if table.get("class") == "counts reasons"

@@ -1,18 +1,16 @@
 """Grasps of Get-a-Grip: NumPy dictionaries of our own in its layout."""
 
-import json
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
 
-import jsonschema
 import numpy as np
 
 import regrasp
 from regrasp import _get_a_grip, _poses, formats
-from regrasp_case import RegraspCase
+from regrasp_case import RegraspCase, grasps_of_a_turn
 
 PROGRAM = os.path.join(os.path.dirname(os.path.dirname(regrasp.__file__)), "regrasp-convert")
 HAND = "models/hands/ring4.json"
@@ -40,11 +38,7 @@ class GetAGripTest(RegraspCase):
     def setUpClass(cls):
         cls.hand = regrasp.Hand.read(HAND)
         cls.cube = regrasp.Object.read(CUBE)
-        plan = regrasp.plan_in_hand(cls.cube, cls.hand, mu=0.8, turn=("z", 30))
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "plan.json")
-            plan.write(path)
-            grasps = formats.of_plan(path, cls.hand)
+        grasps = grasps_of_a_turn(cls.cube, cls.hand)
         # One static grasp of a plan, in which at least three fingertips touch, as three grasps.
         cls.positions, cls.quaternions, cls.joints = (
             np.repeat(values[:1], 3, axis=0) for values in (grasps.positions, grasps.quaternions, grasps.joints))
@@ -73,15 +67,6 @@ class GetAGripTest(RegraspCase):
         done = subprocess.run([sys.executable, PROGRAM, *arguments], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr
-
-    def lines(self, name="out.jsonl"):
-        with open("docs/hand_grasp.schema.json", encoding="utf-8") as file:
-            schema = json.load(file)
-        with open(self.path(name), encoding="utf-8") as file:
-            entries = [json.loads(line) for line in file]
-        for entry in entries:
-            jsonschema.validate(entry, schema)
-        return entries
 
     def test_poses_joints_claims_object_and_scale_are_read(self):
         grasps = formats.read_get_a_grip(self.save("core-mug-12_0_0622.npy"), self.hand)
@@ -135,14 +120,14 @@ class GetAGripTest(RegraspCase):
         said = self.convert(self.path("set"), "--hand", HAND, "--output", self.path("out.jsonl"))
         self.assertIn("not converted: y_pick", said)
         self.assertNotIn("grasp_orientations", said)
-        lines = self.lines()
+        lines = self.hand_grasps()
         self.assertEqual([(line["id"], line["claimed"]) for line in lines],
                          [("a/cube_1_0000_0", True), ("a/cube_1_0000_1", False), ("a/cube_1_0000_2", False)])
         self.assertEqual((lines[0]["set"], lines[0]["object"]), ("get_a_grip", {"file": "cube.obj", "scale": 1}))
         self.assertNotEqual(lines[0]["target"]["joints"], lines[0]["joints"])
         # The directions are those of the object's frame, whatever the frame of the palm in the root link.
         self.convert(self.path("set"), "--hand", HAND, "--palm", "0,0,0,0,0,0,1", "--output", self.path("turned.jsonl"))
-        turned = self.lines("turned.jsonl")
+        turned = self.hand_grasps("turned.jsonl")
         changed = formats.read_get_a_grip(self.save(rot=_poses.matrices(_poses.product(
             self.quaternions, np.tile([0, 0, 0, 1.], (3, 1))))), self.hand)
         np.testing.assert_allclose(list(turned[0]["target"]["joints"].values()),

@@ -7,7 +7,6 @@ import sys
 import unittest
 import unittest.mock
 
-import jsonschema
 import numpy as np
 
 import regrasp
@@ -35,15 +34,6 @@ class HandGraspLinesTest(RegraspCase):
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr
 
-    def lines(self, name="out.jsonl"):
-        with open("docs/hand_grasp.schema.json", encoding="utf-8") as file:
-            schema = json.load(file)
-        with open(self.path(name), encoding="utf-8") as file:
-            entries = [json.loads(line) for line in file]
-        for entry in entries:
-            jsonschema.validate(entry, schema)
-        return entries
-
     def assert_pose(self, pose, expected):
         np.testing.assert_allclose(pose["position"], expected[:3], atol=1e-15)
         np.testing.assert_allclose(pose["quaternion"], expected[3:], atol=1e-15)
@@ -60,7 +50,7 @@ class HandGraspLinesTest(RegraspCase):
         self.save_dexgraspbench("0.npy", succ_flag=np.bool_(False))
         said = self.convert("0.npy", "--output", "out.jsonl")
         self.assertEqual(said, "")
-        entry, = self.lines()
+        entry, = self.hand_grasps()
         self.assertEqual((entry["id"], entry["set"], entry["object"], entry["claimed"]),
                          ("0_0", "dexgraspbench", {"file": "bottle.obj", "scale": 0.06}, False))
         self.assertNotIn("score", entry)
@@ -69,7 +59,7 @@ class HandGraspLinesTest(RegraspCase):
             self.assertEqual(part["joints"], {"a": joint, "b": 2 * joint})
         # The palm is a point of another body: all configurations move.
         self.convert("0.npy", "--output", "moved.jsonl", "--palm", "0,0,0.5")
-        moved, = self.lines("moved.jsonl")
+        moved, = self.hand_grasps("moved.jsonl")
         place = PALM[:3] + _poses.matrices(PALM[3:]) @ [0, 0, 0.5]
         for part in moved, moved["pregrasp"], moved["target"]:
             np.testing.assert_allclose(part["palm"]["position"], place, atol=1e-15)
@@ -77,7 +67,7 @@ class HandGraspLinesTest(RegraspCase):
     def test_a_squeeze_that_is_not_one_is_reported(self):
         self.save_dexgraspbench("0.npy", squeeze_qpos=0)
         self.assertIn("not converted: squeeze_qpos", self.convert("0.npy", "--output", "out.jsonl"))
-        self.assertNotIn("target", self.lines()[0])
+        self.assertNotIn("target", self.hand_grasps()[0])
 
     def test_bodex(self):
         stage = np.concatenate([in_world(PALM), [0.1, 0.2]])
@@ -87,7 +77,7 @@ class HandGraspLinesTest(RegraspCase):
                                              "joint_names": ["a", "b"]})
         self.assertIn("--object", self.convert("cup_grasp.npy", "--output", "out.jsonl", code=2))
         self.convert("cup_grasp.npy", "--object", "cup.obj", "--output", "out.jsonl")
-        entry, = self.lines()
+        entry, = self.hand_grasps()
         self.assertEqual((entry["set"], entry["object"]["file"]), ("bodex", "cup.obj"))
         np.testing.assert_allclose([part["joints"]["a"] for part in (entry["pregrasp"], entry, entry["target"])],
                                    [0.05, 0.1, 0.15])
@@ -100,7 +90,7 @@ class HandGraspLinesTest(RegraspCase):
     def test_dexgraspnet(self):
         self.save_dexgraspnet("sem-Bottle.npy")
         self.assertEqual(self.convert("sem-Bottle.npy", "--output", "out.jsonl"), "")
-        first, second = self.lines()
+        first, second = self.hand_grasps()
         self.assertEqual((first["id"], first["object"], second["object"]["scale"], first["claimed"]),
                          ("sem-Bottle_0", {"file": "sem-Bottle.obj", "scale": 0.08}, 0.1, True))
         self.assertEqual(first["joints"], {"robot0:FFJ3": 0.25})
@@ -108,13 +98,13 @@ class HandGraspLinesTest(RegraspCase):
         # Grasps with the energies of the generator are not validated: no claim.
         self.save_dexgraspnet("raw.npy", E_pen=0.1)
         self.convert("raw.npy", "--output", "raw.jsonl")
-        self.assertNotIn("claimed", self.lines("raw.jsonl")[0])
+        self.assertNotIn("claimed", self.hand_grasps("raw.jsonl")[0])
 
     def test_isaac_grasp(self):
         with open(self.path("a.yaml"), "w", encoding="utf-8") as file:
             file.write(ISAAC)
         self.convert("a.yaml", "--object", "/x/mug.obj", "--scale", "0.01", "--output", "out.jsonl")
-        first, second = self.lines()
+        first, second = self.hand_grasps()
         self.assertEqual((first["id"], first["score"], second["joints"], first["object"]),
                          ("first", 0.5, {"a": 4, "b": 5}, {"file": "mug.obj", "scale": 0.01}))
         self.assertNotIn("claimed", first)
@@ -133,7 +123,7 @@ class HandGraspLinesTest(RegraspCase):
         self.save_json("panda-Mug.json", self.multigrippergrasp(final_dofs=[[0, 0], [0, 0]]))
         said = self.convert("panda-Mug.json", "--output", "out.jsonl")
         self.assertEqual(said, "regrasp-convert: note: not converted: final_dofs\n")
-        first, second = self.lines()
+        first, second = self.hand_grasps()
         self.assertEqual((first["id"], first["set"], first["object"], first["claimed"], second["claimed"]),
                          ("panda-Mug_0", "multigrippergrasp", {"file": "Mug.obj", "scale": 1.0}, True, False))
         self.assertEqual(first["joints"], {"panda_finger_joint1": 0.02, "panda_finger_joint2": 0.03})
@@ -144,15 +134,15 @@ class HandGraspLinesTest(RegraspCase):
         del older["result"]
         self.save_json("older.json", older)
         self.convert("older.json", "--output", "older.jsonl")
-        self.assertEqual([entry["claimed"] for entry in self.lines("older.jsonl")], [True, False])
+        self.assertEqual([entry["claimed"] for entry in self.hand_grasps("older.jsonl")], [True, False])
 
     def test_the_joint_order_of_isaac_sim_is_known(self):
         self.save_json("a.json", self.multigrippergrasp(gripper="Allegro", dofs=np.arange(32.).reshape(2, 16).tolist()))
         self.convert("a.json", "--output", "out.jsonl")
-        joints = self.lines()[0]["joints"]
+        joints = self.hand_grasps()[0]["joints"]
         self.assertEqual((joints["joint_0_0"], joints["joint_12_0"], joints["joint_1_0"], joints["joint_11_0"]), (0, 1, 4, 15))
         self.assertEqual(len(joints), 16)
-        self.assertEqual(self.lines()[0]["closing"], {"joint_12_0": 0.5, "joint_1_0": 1, "joint_5_0": 1, "joint_9_0": 1,
+        self.assertEqual(self.hand_grasps()[0]["closing"], {"joint_12_0": 0.5, "joint_1_0": 1, "joint_5_0": 1, "joint_9_0": 1,
                                                       "joint_14_0": 1})
         for gripper, factors in _multigrippergrasp._CLOSING.items():
             self.assertEqual(len(factors), len(_multigrippergrasp.JOINT_NAMES[gripper]), gripper)
@@ -195,13 +185,13 @@ class HandGraspLinesTest(RegraspCase):
         self.save_json("set/Mug.json", self.multigrippergrasp())
         self.save_json("set/info.json", {"mass": 1})
         self.convert("set", "--output", "out.jsonl")
-        self.assertEqual([entry["id"] for entry in self.lines()], ["Mug_0", "Mug_1"])
+        self.assertEqual([entry["id"] for entry in self.hand_grasps()], ["Mug_0", "Mug_1"])
 
     def test_a_folder_has_a_name_per_grasp(self):
         for name in ("set/cup/0.npy", "set/cup/1.npy", "set/can/0.npy"):
             self.save_dexgraspbench(name)
         self.convert("set", "--output", "out.jsonl")
-        self.assertEqual([entry["id"] for entry in self.lines()], ["can/0_0", "cup/0_0", "cup/1_0"])
+        self.assertEqual([entry["id"] for entry in self.hand_grasps()], ["can/0_0", "cup/0_0", "cup/1_0"])
         self.assertIn("found twice", self.convert("set/cup/0.npy", "set/can/0.npy", "--output", "x.jsonl", code=2))
         self.assertFalse(os.path.exists(self.path("x.jsonl")))
         os.makedirs(self.path("empty"))
@@ -217,7 +207,7 @@ class HandGraspLinesTest(RegraspCase):
         self.save_dexgraspbench("0.npy")
         grasps = formats.read_dexgraspbench(self.path("0.npy"))
         formats.write_hand_grasps(self.path("out.jsonl"), [("p/", grasps)])
-        self.assertEqual(self.lines()[0]["id"], "p/0_0")
+        self.assertEqual(self.hand_grasps()[0]["id"], "p/0_0")
 
 
 if __name__ == "__main__":

@@ -4,14 +4,13 @@ import contextlib
 import io
 import os
 import re
-import tempfile
 import unittest
 
 import numpy as np
 
 import regrasp
 from regrasp import _poses, convert, formats
-from regrasp_case import RegraspCase
+from regrasp_case import RegraspCase, grasps_of_a_turn
 
 HAND = "models/hands/ring4.json"
 CUBE = "models/cube.obj"
@@ -25,11 +24,7 @@ class MisreadTest(RegraspCase):
     def setUpClass(cls):
         cls.hand = regrasp.Hand.read(HAND)
         cls.cube = regrasp.Object.read(CUBE)
-        plan = regrasp.plan_in_hand(cls.cube, cls.hand, mu=0.8, turn=("z", 30))
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "plan.json")
-            plan.write(path)
-            cls.grasps = formats.of_plan(path, cls.hand)
+        cls.grasps = grasps_of_a_turn(cls.cube, cls.hand)
 
     def write(self, *, palms=None, joints=None, object_pose=WORLD, change=lambda pose: pose, **more):
         """Write a dictionary of DexGraspBench with the plan's grasps.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -29,22 +30,25 @@ const object::Polyhedron& RolledCube() {
   return dynamic_cast<const object::Polyhedron&>(*file.object);
 }
 
+/// Return a plan that rotates the cube about z.
+plan::Plan MakePlan(double degrees, gait::RobustnessLevel robustness, bool rolls) {
+  static const kinematics::HandModel hand = kinematics::ReadHand(kRing);
+  gait::GaitRequest request;
+  request.hand = &hand;
+  request.solid = &RolledCube();
+  request.scale = 0.8;
+  request.criteria.friction_angle = std::atan(0.8);
+  request.turn = {Vector3d::UnitZ(), Radians(degrees)};
+  request.robustness = robustness;
+  request.rolls = rolls;
+  const gait::GaitResult found = gait::FindGait(request);
+  if (!found.gait) throw std::runtime_error(found.message);
+  return gait::PlanOf(*found.gait, request, found.contacts);
+}
+
 /// Return a plan with rolling and finger switches, made once.
 const plan::Plan& RollingPlan() {
-  static const plan::Plan plan = [] {
-    static const kinematics::HandModel hand = kinematics::ReadHand(kRing);
-    gait::GaitRequest request;
-    request.hand = &hand;
-    request.solid = &RolledCube();
-    request.scale = 0.8;
-    request.criteria.friction_angle = std::atan(0.8);
-    request.turn = {Vector3d::UnitZ(), Radians(250)};
-    request.robustness = gait::RobustnessLevel::kRequired;
-    request.rolls = true;
-    const gait::GaitResult found = gait::FindGait(request);
-    EXPECT_TRUE(found.gait) << found.message;
-    return gait::PlanOf(*found.gait, request, found.contacts);
-  }();
+  static const plan::Plan plan = MakePlan(250, gait::RobustnessLevel::kRequired, true);
   return plan;
 }
 
@@ -86,19 +90,8 @@ TEST(RollingCheckTest, ContactsMoveByMillimetres) {
 }
 
 TEST(RollingCheckTest, FixedContactsAreNoRolling) {
-  plan::Plan plan = RollingPlan();
-  // Joints that keep the contacts at their points, as in a plan without rolling.
-  static const kinematics::HandModel hand = kinematics::ReadHand(kRing);
-  gait::GaitRequest request;
-  request.hand = &hand;
-  request.solid = &RolledCube();
-  request.scale = 0.8;
-  request.criteria.friction_angle = std::atan(0.8);
-  request.turn = {Vector3d::UnitZ(), Radians(30)};
-  request.robustness = gait::RobustnessLevel::kNone;
-  const gait::GaitResult found = gait::FindGait(request);
-  ASSERT_TRUE(found.gait) << found.message;
-  plan = gait::PlanOf(*found.gait, request, found.contacts);
+  // Its joints keep the contacts at their points.
+  plan::Plan plan = MakePlan(30, gait::RobustnessLevel::kNone, false);
   EXPECT_TRUE(FaultsOf(plan).empty());
   auto& move = std::get<plan::Move>(plan.steps.at(0));
   move.contacts.assign(move.path.size(), plan.initial);
