@@ -99,10 +99,13 @@ Eigen::Isometry3d ParsePose(const std::string& option, const std::string& text) 
 
 /// Read a direction from a list of words: a name, or three numbers.
 /// @param up  upward direction of the palm; nullopt: up and down are not accepted.
+/// @param along_up  if given, set to plan::FacingGoal::along_up.
 std::optional<Eigen::Vector3d> NextDirection(std::istringstream& words,
-                                             const std::optional<Eigen::Vector3d>& up) {
+                                             const std::optional<Eigen::Vector3d>& up,
+                                             int* along_up = nullptr) {
   std::string word;
   if (!(words >> word)) return std::nullopt;
+  if (along_up != nullptr) *along_up = plan::AlongUp(word);
   if (const auto direction = plan::DirectionOfName(word, up)) return direction;
   Eigen::Vector3d vector;
   for (int k = 0; k < 3; ++k) {
@@ -132,7 +135,8 @@ Eigen::Vector3d ParseGravity(const std::string& text) {
 plan::GoalSet ParseFacing(const std::string& text, const Eigen::Vector3d& up) {
   std::istringstream words(SpacesForCommas(text));
   const auto axis = NextDirection(words, std::nullopt);
-  const auto direction = axis ? NextDirection(words, up) : std::nullopt;
+  int along_up = 0;
+  const auto direction = axis ? NextDirection(words, up, &along_up) : std::nullopt;
   std::string degrees;
   std::string rest;
   const bool is_list = direction && words >> degrees && !(words >> rest);
@@ -150,7 +154,7 @@ plan::GoalSet ParseFacing(const std::string& text, const Eigen::Vector3d& up) {
   CheckRange("--goal-facing", "degrees", *tolerance, plan::kSmallestGoalAngle_deg,
              plan::kLargestGoalAngle_deg);
   return plan::GoalSet(
-      plan::FacingGoal{axis->normalized(), direction->normalized(), Radians(*tolerance)});
+      plan::FacingGoal{axis->normalized(), direction->normalized(), Radians(*tolerance), along_up});
 }
 
 /// Parse "0.005,10".
@@ -216,6 +220,10 @@ void HandOptions::AddTo(CLI::App& app) {
                  "the six axes with a plan. The plan records the direction. A leading minus sign "
                  "requires --gravity=-z [default: opposite to `up` of the hand file]")
       ->type_name("DIRECTION|any");
+  AddNumber(app, "--mass", mass_kg, NumberRange::Positive(),
+            "Mass of the object in simulation, in kg. The plan records it, and `validate` uses it "
+            "[default: that of the density of water]",
+            "KG");
   AddChoice<bool>(app, "--closure", gravity_support, {{"force", false}, {"gravity", true}},
                   "How grasps hold the object [default: force]\n"
                   "force: every grasp is force closure\n"
@@ -259,6 +267,7 @@ void HandOptions::Check(const Ends& ends) const {
                                       {"--goal-tolerance", goal_tolerance},
                                       {"--goals", goals},
                                       {"--gravity", gravity},
+                                      {"--mass", mass_kg ? "given" : ""},
                                       {"--closure", gravity_support ? "gravity" : ""},
                                       {"--rolling", rolls ? "on" : ""},
                                       {"--continue", continue_plan}}) {
@@ -289,12 +298,6 @@ void HandOptions::Check(const Ends& ends) const {
                                       {"--goal", ends.has_goal ? "given" : ""}}) {
     if (goals.empty() || value.empty()) continue;
     throw InputError(std::string("--goals: cannot be used with ") + option);
-  }
-  for (const auto& [option, value] :
-       {std::pair("--goal-facing", goal_facing), {"--goals", goals}}) {
-    if (gravity != kAnyGravity || value.empty()) continue;
-    throw InputError(std::string("--gravity any: cannot be used with ") + option +
-                     ", which depends on the direction of gravity");
   }
   for (const auto& [option, value] :
        {std::pair("--start", std::string(ends.has_start ? "given" : "")),
@@ -345,6 +348,7 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
     up = ParseGravity(gravity);
     task.ups = {up};
   }
+  task.mass_kg = mass_kg;
   if (gravity_support) task.gravity_support.emplace();
   task.rolls = rolls;
   if (!goal_facing.empty()) task.goal = ParseFacing(goal_facing, up);

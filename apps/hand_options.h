@@ -17,11 +17,12 @@ struct HandOptions {
   std::string goal_pose;
   std::string goal_facing;
   std::string goal_tolerance;
-  std::string goals;             ///< file of goals; empty: none
-  std::string gravity;           ///< direction, or any; empty: that of the hand
-  bool gravity_support = false;  ///< whether grasps may hold the object by its weight
-  bool rolls = false;            ///< whether fingertips roll in in-hand motions
-  std::string continue_plan;     ///< plan whose end is the start; empty: none
+  std::string goals;              ///< file of goals; empty: none
+  std::string gravity;            ///< direction, or any; empty: that of the hand
+  std::optional<double> mass_kg;  ///< mass of the object; nullopt: the density of water
+  bool gravity_support = false;   ///< whether grasps may hold the object by its weight
+  bool rolls = false;             ///< whether fingertips roll in in-hand motions
+  std::string continue_plan;      ///< plan whose end is the start; empty: none
   double clearance_m = 1e-3;
   /// Required robustness, and the conditions of the simulated execution.
   struct Robustness {

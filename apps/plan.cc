@@ -101,14 +101,17 @@ std::string BoxText(const object::Polyhedron& solid, double scale) {
 /// Print size and mass before the search for a hand's plan.
 /// The user then notices a wrong unit of length at once, instead of after minutes of search without
 /// result.
-void PrintSize(const PlannerOptions& common, const object::ObjectFile& object,
-               const object::BodyMeasures& body) {
+void PrintSize(const PlanProgram& program, const object::ObjectFile& object,
+               object::BodyMeasures body) {
+  const PlannerOptions& common = program.common;
+  body.mass_kg = program.hand.mass_kg.value_or(body.mass_kg);
   const std::string warning = object::SizeWarning(body, common.scale);
   if (!warning.empty()) PrintMessage(kPlanName, "warning: " + warning);
   const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
   if (common.quiet || solid == nullptr) return;
   PrintMessage(kPlanName, object.file + ": " + BoxText(*solid, common.scale) + ", " +
-                              object::MeasuresText(body) + " at the density of water" +
+                              object::MeasuresText(body) +
+                              (program.hand.mass_kg ? "" : " at the density of water") +
                               object::UnitText(object.unit));
 }
 
@@ -142,7 +145,7 @@ int RunOne(PlanProgram program) {
   const object::BodyMeasures body = object::MeasureBody(*object.object, common.scale);
   const GivenPoints given = common.ReadGivenPoints();
   const bool has_hand = program.hand.given();
-  if (has_hand) program.on_search = [&] { PrintSize(common, object, body); };
+  if (has_hand) program.on_search = [&] { PrintSize(program, object, body); };
   FinishedPlan finished = program.Plan(object, given);
   planning::PlanResult& result = finished.result;
   if (!result.plan) {

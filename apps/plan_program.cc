@@ -184,6 +184,7 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
     CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
     begin = plan::EndOfPlan(*continued);
     if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
+    if (!task.mass_kg) task.mass_kg = continued->hand->mass_kg;
   } else if (from.hand_grasp) {
     begin = StateOf(*from.hand_grasp, object, task.margin);
     set_contacts(*begin, from);

@@ -123,10 +123,13 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
            "Metres per length unit of the object file. Must be that of the plan; 1 for grasps by "
            "default");
   options.repair.AddWithSwitch(app);
-  CLI::Option* mass = AddNumber(app, "--mass", options.replay.mass_kg, NumberRange::Positive(),
-                                "Mass of the object in kg. Replaces --density", "KG");
+  CLI::Option* mass =
+      AddNumber(app, "--mass", options.replay.mass_kg, NumberRange::Positive(),
+                "Mass of the object in kg. Replaces --density [default: that of the "
+                "plan, if it has one]",
+                "KG");
   AddNumber(app, "--density", options.replay.density_kg_m3, NumberRange::Positive(),
-            "Density of the object in kg/m^3 [default: 1000]", "KG_M3")
+            "Density of the object in kg/m^3 [default: 1000, unless the plan has a mass]", "KG_M3")
       ->excludes(mass);
   AddNumber(app, "--thickness", options.replay.thickness, NumberRange::Positive(),
             "Thickness of a planar object, object units [default: a quarter of the diameter]");

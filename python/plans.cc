@@ -57,6 +57,7 @@ struct HandArguments {
   std::optional<std::array<double, 7>> start_pose, goal_pose;
   /// Unit vectors against gravity in the palm frame, to try in this order; empty: the hand's own.
   std::vector<Eigen::Vector3d> ups;
+  std::optional<double> mass_kg;     ///< mass of the object; nullopt: the density of water
   bool gravity_support = false;      ///< whether grasps may hold the object by its weight
   bool rolls = false;                ///< whether fingertips roll
   std::optional<std::string> goals;  ///< text of a file of goals
@@ -101,6 +102,7 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
           .ups = given.ups,
           .gravity_support =
               given.gravity_support ? std::optional(plan::GravitySupport()) : std::nullopt,
+          .mass_kg = given.mass_kg,
           .rolls = given.rolls,
           .simulate = sim::ExecutionSimulator(
               hand.file, solid,
@@ -244,6 +246,7 @@ void BindPlans(py::module_& module) {
       .def_readwrite("goal_pose", &HandArguments::goal_pose)
       .def_readwrite("ups", &HandArguments::ups)
       .def_readwrite("gravity_support", &HandArguments::gravity_support)
+      .def_readwrite("mass_kg", &HandArguments::mass_kg)
       .def_readwrite("rolls", &HandArguments::rolls)
       .def_readwrite("goals", &HandArguments::goals)
       .def_readwrite("goals_name", &HandArguments::goals_name)

@@ -135,18 +135,27 @@ GoalListResult FindPlanUnderGravity(const GaitRequest& request) {
   return result;
 }
 
+/// Let gravity act in another direction: on the hand, and on goals that point up or down.
+/// @param hand  becomes the hand of the request.
+void TurnGravity(const Eigen::Vector3d& up, kinematics::HandModel& hand, GaitRequest& request) {
+  hand = *request.hand;
+  kinematics::SetUp(up, hand);
+  request.hand = &hand;
+  request.ups.clear();
+  if (request.goal) request.goal = request.goal->WithUp(up);
+  for (plan::NamedGoal& goal : request.goals) goal.set = goal.set.WithUp(up);
+}
+
 /// Find a plan with the first possible one of several directions of gravity.
 GoalListResult FindPlan(const GaitRequest& request) {
   if (request.ups.empty()) return FindPlanUnderGravity(request);
   GoalListResult first;
   const std::size_t count = request.ups.size();
   for (std::size_t i = 0; i < count; ++i) {
-    kinematics::HandModel hand = *request.hand;
-    kinematics::SetUp(request.ups[i], hand);
+    kinematics::HandModel hand;
     GaitRequest turned = request;
-    turned.hand = &hand;
+    TurnGravity(request.ups[i], hand, turned);
     turned.deadline = request.deadline.After(1 / static_cast<double>(count - i));
-    turned.ups.clear();
     turned.progress = [&](std::string_view text) {
       request.progress("direction of gravity " + std::to_string(i + 1) + " of " +
                        std::to_string(count) + ": " + std::string(text));
@@ -240,12 +249,7 @@ GaitPlanner::GaitPlanner()
 PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
   GaitRequest request = RequestFor(asked);
   kinematics::HandModel turned;
-  if (request.ups.size() == 1) {
-    turned = *request.hand;
-    kinematics::SetUp(request.ups.front(), turned);
-    request.hand = &turned;
-    request.ups.clear();
-  }
+  if (request.ups.size() == 1) TurnGravity(request.ups.front(), turned, request);
   if (request.seeks_most_margin &&
       (!request.simulate || request.robustness == RobustnessLevel::kNone)) {
     throw InputError(std::string(planning::kMarginOption) +

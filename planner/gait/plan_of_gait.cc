@@ -148,6 +148,7 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
                     (gait.segments.empty() ? gait.start : gait.segments.back().path.back()).pose};
   if (!hand.has_own_up || request.gravity_support) plan.hand->up = hand.up;
   plan.hand->gravity_support = request.gravity_support;
+  plan.hand->mass_kg = request.mass_kg;
   for (FingerIndex finger{0}; finger < plan.fingers; ++finger) {
     if (gait.initial[finger] == kNone) continue;
     plan.initial.push_back({finger, contacts[gait.initial[finger]]});

@@ -86,4 +86,11 @@ GoalSet GoalSet::Shrunk(double length, double angle) const {
   return GoalSet(smaller);
 }
 
+GoalSet GoalSet::WithUp(const Vector3d& up) const {
+  if (facing() == nullptr || facing()->along_up == 0) return *this;
+  FacingGoal turned = *facing();
+  turned.direction = turned.along_up * up;
+  return GoalSet(turned);
+}
+
 }  // namespace regrasp::plan

@@ -28,6 +28,8 @@ struct FacingGoal {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();       ///< unit vector in the object's frame
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector in the palm's frame
   double tolerance = Radians(1);                         ///< largest angle between both, radians
+  /// 1 if the direction is up, -1 if it is down (GoalSet::WithUp), 0 if it is fixed in the palm.
+  int along_up = 0;
 };
 
 /// Distance of a pose from a goal set: how far it exceeds each tolerance.
@@ -75,6 +77,10 @@ class GoalSet {
   /// Return the set with smaller tolerances, at least zero.
   /// @param length, angle  reductions, metres and radians.
   [[nodiscard]] GoalSet Shrunk(double length, double angle) const;
+
+  /// Return the set for another upward direction: a facing goal up or down follows it.
+  /// @param up  unit vector in the palm's frame.
+  [[nodiscard]] GoalSet WithUp(const Eigen::Vector3d& up) const;
 
  private:
   Shape shape_;

@@ -45,9 +45,10 @@ Eigen::Vector3d ReadDirection(const JsonReader& json, const std::optional<Eigen:
 
 FacingGoal ReadFacing(const JsonReader& json, const std::optional<Eigen::Vector3d>& up) {
   json.ExpectOnly({"axis", "direction", "tolerance_deg"});
-  return {ReadDirection(json.Member("axis"), std::nullopt),
-          ReadDirection(json.Member("direction"), up),
-          ReadToleranceAngle(json.Member("tolerance_deg"))};
+  const JsonReader& direction = json.Member("direction");
+  return {ReadDirection(json.Member("axis"), std::nullopt), ReadDirection(direction, up),
+          ReadToleranceAngle(json.Member("tolerance_deg")),
+          direction.IsString() ? AlongUp(direction.String()) : 0};
 }
 
 PoseGoal ReadPoseGoal(const JsonReader& json) {
@@ -65,10 +66,14 @@ PoseGoal ReadPoseGoal(const JsonReader& json) {
 
 }  // namespace
 
+int AlongUp(const std::string& name) {
+  if (name == "up") return 1;
+  return name == "down" ? -1 : 0;
+}
+
 std::optional<Eigen::Vector3d> DirectionOfName(const std::string& name,
                                                const std::optional<Eigen::Vector3d>& up) {
-  if (up && name == "up") return up->normalized();
-  if (up && name == "down") return -up->normalized();
+  if (up && AlongUp(name) != 0) return AlongUp(name) * up->normalized();
   const bool has_sign = !name.empty() && (name[0] == '+' || name[0] == '-');
   const std::string axis = name.substr(has_sign ? 1 : 0);
   const std::size_t which = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;

@@ -26,6 +26,9 @@ inline constexpr double kLargestGoalAngle_deg = 180;
 [[nodiscard]] std::optional<Eigen::Vector3d> DirectionOfName(
     const std::string& name, const std::optional<Eigen::Vector3d>& up);
 
+/// Return 1 for `up`, -1 for `down` and 0 for other names (FacingGoal::along_up).
+[[nodiscard]] int AlongUp(const std::string& name);
+
 /// Read a goal set: the members `facing`, or `pose` with its tolerances (docs/goals.schema.json).
 /// Other members are ignored.
 /// @param up  as in DirectionOfName.

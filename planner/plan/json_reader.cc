@@ -316,6 +316,11 @@ HandUse ReadHandUse(const JsonReader& json) {
     if (!hand.up) json.Fail("gravity_support requires up");
     hand.gravity_support = ReadGravitySupport(json.Member("gravity_support"));
   }
+  if (json.Has("mass_kg")) {
+    const JsonReader& mass = json.Member("mass_kg");
+    hand.mass_kg = mass.Number();
+    if (!(*hand.mass_kg > 0)) mass.Fail("expected a positive number, found " + mass.Quoted());
+  }
   return hand;
 }
 
@@ -342,6 +347,7 @@ Json HandUseJson(const HandUse& hand) {
     json["gravity_support"] = {{"disturbance", hand.gravity_support->disturbance},
                                {"force", hand.gravity_support->force}};
   }
+  if (hand.mass_kg) json["mass_kg"] = *hand.mass_kg;
   return json;
 }
 

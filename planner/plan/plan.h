@@ -83,6 +83,8 @@ struct HandUse {
   std::optional<Eigen::Vector3d> up = {};
   /// Set if static grasps and in-hand motions need not be force closure; `up` is then set too.
   std::optional<GravitySupport> gravity_support = {};
+  /// Mass of the object for which the plan was simulated, kg; nullopt: with the density of water.
+  std::optional<double> mass_kg = {};
 };
 
 /// Finger switch: the `place` fingers, which are free, make contact; then the `release` fingers,

@@ -81,6 +81,8 @@ struct InHandTask {
   std::vector<Eigen::Vector3d> ups = {};
   /// Set if grasps may hold the object by its weight instead of force closure.
   std::optional<plan::GravitySupport> gravity_support = {};
+  /// Mass of the object in simulation, kg; nullopt: that of the density of water.
+  std::optional<double> mass_kg = {};
   /// Whether fingertips roll in in-hand motions (plan::Move::contacts). If not, their contacts are
   /// fixed in the plan, and a real fingertip deviates from them.
   bool rolls = false;

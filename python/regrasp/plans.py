@@ -220,8 +220,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  start: GivenGrasp | dict | None = None, goal: GivenGrasp | dict | None = None,
                  start_pose: ArrayLike | None = None, goal_pose: ArrayLike | None = None,
                  goals: str | os.PathLike | Sequence[dict] | None = None,
-                 gravity: str | ArrayLike | None = None, closure: str = "force", rolling: bool = False,
-                 optimize: str = "steps",
+                 gravity: str | ArrayLike | None = None, mass: float | None = None,
+                 closure: str = "force", rolling: bool = False, optimize: str = "steps",
                  reserve: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
@@ -250,6 +250,8 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             each goal.
         gravity: direction of gravity in the palm frame, three numbers. "any" tries the direction of the
             hand file and then the six axes. Default: the direction of the hand file.
+        mass: mass of the object in simulation, kg. The plan records it, and `validate` uses it. Default:
+            that of the density of water.
         closure: "force" for force closure. "gravity" also permits grasps that hold the object by its
             weight, with forces of up to 9 weights, against disturbances of 0.1 weights.
         rolling: whether fingertips roll without slipping in in-hand motions, instead of contacts that
@@ -311,9 +313,9 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     if goals is not None:
         task.goals_name, task.goals = _goals_text(goals)
     if gravity is not None:
-        if isinstance(gravity, str) and goals is not None:
-            raise InputError('gravity "any" cannot be used with goals, which depend on the direction of gravity')
         task.ups = _ups(gravity, hand)
+    if mass is not None:
+        task.mass_kg = _arguments.number("mass", mass, 0)
     task.rolls = _arguments.flag("rolling", rolling)
     for name, given_too in (("goal", goal is not None), ('closure="gravity"', closure == "gravity")):
         if task.rolls and given_too:

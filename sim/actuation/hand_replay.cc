@@ -111,8 +111,9 @@ ReplaySettings SettingsOf(const HandEngine& world, const object::Polyhedron& sol
 
 /// Return the options with the mass of the object.
 HandReplayOptions WithMass(HandReplayOptions options, const object::Polyhedron& solid,
-                           double scale) {
-  options.mass_kg = BodyOf(solid, scale, options).mass_kg;
+                           const plan::Plan& plan) {
+  UseMassOf(plan, options);
+  options.mass_kg = BodyOf(solid, plan.scale, options).mass_kg;
   return options;
 }
 
@@ -226,7 +227,7 @@ EntryObserver ObserverOf(const HandEngine& engine, const ReplayObserver& observe
 ReplayResult ReplayOnce(const kinematics::HandFile& file, const object::Polyhedron& solid,
                         const plan::Plan& plan, const HandReplayOptions& given,
                         const ReplayObserver& observer, int entries) {
-  const HandReplayOptions options = WithMass(given, solid, plan.scale);
+  const HandReplayOptions options = WithMass(given, solid, plan);
   const std::unique_ptr<HandEngine> engine =
       MakeEngine(file, solid, plan.scale, options, plan.friction_angle);
   HandEngine& world = *engine;
@@ -300,7 +301,7 @@ struct HandReplays::Impl {
   kinematics::HandFile file;
   const object::Polyhedron& solid;
   HandReplayOptions given;
-  HandReplayOptions options = {};  ///< options with the mass at this scale
+  HandReplayOptions options = {};  ///< options with the mass of the object
   double friction_angle = 0;
   double scale = 0;
   std::unique_ptr<HandEngine> world = {};
@@ -313,11 +314,15 @@ struct HandReplays::Impl {
   }
 
   void MakeWorldFor(const plan::Plan& plan) {
-    if (world && friction_angle == plan.friction_angle && scale == plan.scale) return;
+    HandReplayOptions wanted = WithMass(given, solid, plan);
+    if (world && friction_angle == plan.friction_angle && scale == plan.scale &&
+        options.mass_kg == wanted.mass_kg) {
+      return;
+    }
     friction_angle = plan.friction_angle;
     scale = plan.scale;
     Forget();
-    options = WithMass(given, solid, scale);
+    options = std::move(wanted);
     world = MakeEngine(file, solid, scale, options, friction_angle);
   }
 

@@ -16,7 +16,8 @@
 
 namespace regrasp::sim {
 
-/// Options of a replay by the actuators of a hand. The friction is the plan's.
+/// Options of a replay by the actuators of a hand. The friction is the plan's, and so is the mass
+/// by default (UseMassOf).
 struct HandReplayOptions : ReplayConditions {
   HandTolerance tolerance;
   HandSensing sensing;

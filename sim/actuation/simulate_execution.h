@@ -22,8 +22,8 @@ enum class PlanningRobustness {
 [[nodiscard]] std::vector<HandReplayOptions> PlanningConditions(PlanningRobustness robustness);
 
 /// Return a function that simulates the execution of plans for planners (planning::InHandTask).
-/// It replays a plan on the hand's own model (ReplayHand) with the plan's friction, for an object
-/// with the density of water, under each condition in turn. A plan executes if it does under all;
+/// It replays a plan on the hand's own model (ReplayHand) with the plan's friction and mass, under
+/// each condition in turn. A plan executes if it does under all;
 /// the result is that of the first condition that fails. Several threads may call it at a time.
 ///
 /// @param solid  object; must outlive the function.
@@ -35,9 +35,8 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
                    std::vector<HandReplayOptions> conditions = {HandReplayOptions()});
 
 /// Return a function that rates plans for planners (planning::InHandTask::rate).
-/// It replays a plan under the standard conditions that exist for the hand, for an object with the
-/// density of water. The conditions that fail most often are first, and a replay ends at its first
-/// failed step.
+/// It replays a plan with its friction and mass under the standard conditions that exist for the
+/// hand. The conditions that fail most often are first, and a replay ends at its first failed step.
 /// @param solid  object; must outlive the function.
 [[nodiscard]] std::function<std::optional<planning::RobustnessRating>(
     const plan::Plan&, int most_failures, const Deadline&)>

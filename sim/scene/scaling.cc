@@ -68,8 +68,6 @@ constexpr double kLeastGraspForce = 1e-30, kLargestGraspForce = 1e36;  // newton
 static_assert(kStiffness >= 5);
 static_assert(kDampingStep <= 0.6);
 
-static_assert(ReplayOptions().density_kg_m3 == object::kUsualDensity);
-
 void CheckRange(const char* what, double value, double least, double largest, const char* unit,
                 const char* look_at = "--scale and --mass") {
   if (value >= least && value <= largest) return;
@@ -110,10 +108,15 @@ double RollingTime(const ReplaySettings& s, double gyration) {
 
 }  // namespace
 
+void UseMassOf(const plan::Plan& plan, ReplayConditions& options) {
+  const bool is_stated = options.mass_kg || options.density_kg_m3;
+  if (!is_stated && plan.hand) options.mass_kg = plan.hand->mass_kg;
+}
+
 object::BodyMeasures BodyOf(const object::Object& object, double scale,
                             const ReplayConditions& options) {
-  object::BodyMeasures body =
-      object::MeasureBody(object, scale, options.density_kg_m3, options.thickness);
+  object::BodyMeasures body = object::MeasureBody(
+      object, scale, options.density_kg_m3.value_or(object::kUsualDensity), options.thickness);
   if (options.mass_kg) body.mass_kg = *options.mass_kg;
   return body;
 }

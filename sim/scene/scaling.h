@@ -29,6 +29,9 @@ inline constexpr double kGripSafety = 2;
 /// et al. 1985).
 inline constexpr double kStrongestGrip_N = 200;
 
+/// Use the mass of a plan for a hand, unless the options state mass or density.
+void UseMassOf(const plan::Plan& plan, ReplayConditions& options);
+
 /// Return the size and mass of the object for the options.
 [[nodiscard]] object::BodyMeasures BodyOf(const object::Object& object, double scale,
                                           const ReplayConditions& options);

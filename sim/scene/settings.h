@@ -88,7 +88,7 @@ enum class GraspForceSource {
 /// values without a value are derived from the object, the grasps or the hand.
 struct ReplayConditions {
   std::optional<double> mass_kg;        ///< mass of the object, instead of density
-  double density_kg_m3 = 1000;          ///< density of the homogeneous solid
+  std::optional<double> density_kg_m3;  ///< density of the homogeneous solid; default: of the plan
   std::optional<double> thickness;      ///< thickness of a polygon's prism, unit of the object
   std::optional<double> grasp_force_N;  ///< grasp force: sum of the normal forces of a static grasp
   double disturbance_ratio = 0.01;  ///< ρ: disturbance force over grasp force; a torque also over R

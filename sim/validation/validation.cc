@@ -211,13 +211,14 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
   plan.friction_angle = options.friction_angle.value_or(plan.friction_angle);
   plan::SetTorsion(options.torsion.value_or(plan.torsion), plan);
   if (options.replay.finger_radius) plan.finger_radius = options.replay.finger_radius;
+  sim::UseMassOf(plan, settings.replay);
   settings.check.start = request.start;
   settings.check.goal = request.goal;
   settings.check.given_points = request.given_points;
   settings.check.allow_undecided = options.allow_undecided;
   if (request.hand != nullptr && options.replay_by_hand) {
     settings.hand = options.hand;
-    static_cast<sim::ReplayConditions&>(*settings.hand) = options.replay;
+    static_cast<sim::ReplayConditions&>(*settings.hand) = settings.replay;
     settings.hand->engine = options.replay.engine;
   } else if (plan::HasRolling(plan)) {
     throw InputError(

@@ -170,6 +170,28 @@ class Gait(ProgramCase):
         self.assert_refused(2, "/hand/goals: a goal is marked after step", "--object",
                             self.model("cube.obj"), "--plan", "plan.json", program="validate")
 
+    def test_goals_up_follow_the_direction_of_gravity(self):
+        """With little friction no axis turns from down to up, but gravity may act in another direction."""
+        self.assert_done(*self.quick("--turn", "z,5"))
+        pose = json.loads(self.read("plan.json"))["hand"]["initial"]["pose"]
+        w, x, y, z = pose["quaternion"]
+        axis = [-2 * (x * z - w * y), -2 * (y * z + w * x), 2 * (x * x + y * y) - 1]
+        numbers = ",".join(map(repr, (*pose["position"], *pose["quaternion"])))
+        goal = ("--goal-facing=" + ",".join(map(repr, axis)) + ",up,5",)
+
+        def slippery(*more):
+            words = list(self.quick(f"--start-pose={numbers}", "--planner", "gait,budget=1", *more))
+            words[words.index("--mu") + 1] = "0.15"
+            return words
+        self.assertEqual(self.run_program(*slippery(*goal)).returncode, 1)
+        self.assert_done(*slippery(*goal, "--gravity", "any"))
+        hand = json.loads(self.read("plan.json"))["hand"]
+        self.assertNotEqual(hand["up"], [0, 0, 1])
+        self.assertEqual(hand["goals"][0]["facing"]["direction"], hand["up"])
+        self.write_json("goals.json", self.goals(self.facing("a", axis, "up", 5)))
+        self.assert_done(*slippery("--goals", "goals.json", "--gravity", "any"))
+        self.assertEqual(json.loads(self.read("plan.json"))["hand"]["goals"], [{**hand["goals"][0], "name": "a"}])
+
     def test_a_list_of_goals_gives_one_plan(self):
         self.write_json("goals.json", self.goals(self.facing("a", [1, 0, 1]),
                                                  self.facing("b", [-1, 0, 1])))
@@ -306,6 +328,34 @@ class Gait(ProgramCase):
             self.assert_refused(2, ["bad.json", "/hand/up"], "--object", self.model("cube.obj"), "--plan", "bad.json",
                                 "--hand", ring5, program="validate")
 
+    def test_the_mass_of_the_object(self):
+        """The plan records it, and validate uses it unless another one is given."""
+        ring5 = self.hand("ring5")
+        self.assert_done(*self.turn(ring5, 45), "--output", "water.json", program="plan")
+        self.assertNotIn("mass_kg", json.loads(self.read("water.json"))["hand"])
+        self.assert_done(*self.turn(ring5, 45), "--mass", "0.04", "--output", "light.json", program="plan")
+        self.assertEqual(json.loads(self.read("light.json"))["hand"]["mass_kg"], 0.04)
+        self.assert_done(*self.turn(ring5, 15), "--continue", "light.json", "--output", "more.json", program="plan")
+        self.assertEqual(json.loads(self.read("more.json"))["hand"]["mass_kg"], 0.04)
+        for plan, options, mass in (("light.json", (), 0.04), ("light.json", ("--mass", "0.05"), 0.05),
+                                    ("light.json", ("--density", "1000"), 0.110592), ("water.json", (), 0.110592),
+                                    ("light.json", ("--replay", "points"), 0.04)):
+            self.run_program("--object", self.model("cube.obj"), "--plan", plan, "--hand", ring5, "--frames", "none",
+                             *options, "--output", "out", program="validate")
+            report = json.loads(self.read("out/report.json"))
+            self.assertAlmostEqual(report["settings"]["mass_kg"], mass, 5, (plan, options))
+        done = self.run_program(*self.turn(ring5, 45), "--mass", "20", "--planner", "gait,budget=20",
+                                "--output", "heavy.json", program="plan")
+        self.assertEqual(done.returncode, 1)
+        self.assertFalse(os.path.exists(self.path("heavy.json")))
+        text = json.loads(self.read("light.json"))
+        for mass in (0, -1, "1", None):
+            text["hand"]["mass_kg"] = mass
+            self.write_json("bad.json", text)
+            self.assert_refused(2, ["bad.json", "/hand/mass_kg"], "--object", self.model("cube.obj"), "--plan",
+                                "bad.json", "--hand", ring5, program="validate")
+        self.assert_refused(2, "--mass", *self.turn(ring5, 45), "--mass", "0", "--output", "x.json", program="plan")
+
     def test_grasps_that_gravity_supports(self):
         """Only a plan that permits them passes; the report counts them."""
         ring4 = self.hand("ring4")
@@ -349,10 +399,6 @@ class Gait(ProgramCase):
                             (("--gravity", "0,0,1,5"), "--gravity: expected a direction"),
                             (("--gravity", "up"), "--gravity: expected a direction")):
             self.assert_refused(2, words, *self.turn(ring5, 45), *more, "--output", "p.json", program="plan")
-        for goal in (("--goal-facing", "x,up,30"), ("--goals", "goals.json")):
-            self.assert_refused(2, f"--gravity any: cannot be used with {goal[0]}", "--object", self.model("cube.obj"),
-                                "--mu", "0.8", "--hand", ring5, *goal, "--gravity", "any", "--output", "p.json",
-                                program="plan")
         self.assert_refused(2, "--continue: cannot be used with --gravity", "--object", self.model("cube.obj"), "--mu",
                             "0.8", "--hand", ring5, "--continue", "p.json", "--gravity", "z", "--goal-facing",
                             "x,up,30", "--output", "q.json", program="plan")

@@ -159,6 +159,13 @@ class HandsTest(RegraspCase):
             self.assertEqual(plan.data["hand"].get("up"), None if given == "any" else [0, 0, -1])
             self.assertTrue(regrasp.validate(self.cube, plan, hand=self.hand).passed)
 
+    def test_mass_of_the_plan(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30), mass=0.06)
+        self.assertEqual(plan.data["hand"]["mass_kg"], 0.06)
+        masses = [regrasp.validate(self.cube, plan, hand=self.hand, mass=mass).data["settings"]["mass_kg"]
+                  for mass in (None, 0.07)]
+        self.assertEqual(masses, [0.06, 0.07])
+
     def test_closure_of_the_plan(self):
         plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30), closure="gravity")
         support = plan.data["hand"]["gravity_support"]
@@ -187,6 +194,7 @@ class HandsTest(RegraspCase):
         plan("goals", "cannot be used with turn", goals=[], turn=("z", 9))
         plan("hand", "str", "Hand.read", hand="ring4.json", turn=("z", 90))
         plan("gear128.wkt", "polygon", object=gear, turn=("z", 90))
+        plan("mass", "greater than 0", turn=("z", 9), mass=0)
         plan("turn", "axis and degrees", turn="z90 now")
         plan("turn[0]", "'w'", turn=("w", 90))
         plan("turn[1]", "must not be 0", turn=("z", 0))

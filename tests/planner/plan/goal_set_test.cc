@@ -115,6 +115,25 @@ TEST(GoalSetTest, AnOppositeDirectionIsReachable) {
   EXPECT_LT((nearest.linear() * Vector3d::UnitX() + Vector3d::UnitX()).norm(), 1e-12);
 }
 
+/// Goals up and down follow the upward direction; other goals do not.
+TEST(GoalSetTest, GoalsUpAndDownFollowTheDirectionOfGravity) {
+  const auto read = [](const std::string& direction) {
+    const Json json = Json::parse(R"({"facing": {"axis": "x", "tolerance_deg": 5, "direction": )" +
+                                  direction + "}}");
+    return ReadGoalSet(JsonReader(json, "goals"), Vector3d::UnitZ());
+  };
+  const Vector3d up = Vector3d(1, 2, -2) / 3;
+  EXPECT_EQ(read(R"("up")").facing()->direction, Vector3d::UnitZ());
+  EXPECT_EQ(read(R"("up")").WithUp(up).facing()->direction, up);
+  EXPECT_EQ(read(R"("down")").WithUp(up).facing()->direction, -up);
+  EXPECT_EQ(read(R"("z")").WithUp(up).facing()->direction, Vector3d::UnitZ());
+  EXPECT_EQ(read("[0, 0, 1]").WithUp(up).facing()->direction, Vector3d::UnitZ());
+  EXPECT_EQ(read(R"("up")").WithUp(up).facing()->tolerance, Radians(5));
+  Draws draws;
+  const GoalSet pose(draws.Pose());
+  EXPECT_EQ(pose.WithUp(up).pose()->pose.matrix(), pose.pose()->pose.matrix());
+}
+
 TEST(GoalSetTest, JsonIsReadBack) {
   Draws draws;
   for (int i = 0; i < kDraws; ++i) {

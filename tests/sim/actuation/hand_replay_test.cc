@@ -161,6 +161,20 @@ TEST(HandReplayTest, AnObjectThatIsTooHeavyFalls) {
   EXPECT_NE(ReasonOf(ReplayOf(GoodPlan(), options)), Reason::kNone);
 }
 
+TEST(HandReplayTest, TheMassIsThatOfThePlanUnlessTheOptionsStateOne) {
+  plan::Plan light = GoodPlan();
+  light.hand->mass_kg = 0.05;
+  HandReplayOptions options;
+  const double of_water = ReplayOf(GoodPlan(), options).settings.mass_kg;
+  EXPECT_NE(of_water, 0.05);
+  EXPECT_EQ(ReplayOf(light, options).settings.mass_kg, 0.05);
+  options.density_kg_m3 = 1000;
+  EXPECT_EQ(ReplayOf(light, options).settings.mass_kg, of_water);
+  options.density_kg_m3.reset();
+  options.mass_kg = 0.06;
+  EXPECT_EQ(ReplayOf(light, options).settings.mass_kg, 0.06);
+}
+
 TEST(HandReplayTest, ActuatorsOfHalfTheForceStandAtTheirLimits) {
   HandReplayOptions options = Options();
   // First the torques are close to the limits. Then half of the force limit is missing.
@@ -399,11 +413,14 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   for (plan::HandState& state : last_move->path) state.pose.translation().x() += 5e-3;
   plan::Plan slippery = good;
   slippery.friction_angle = std::atan(0.05);
+  plan::Plan heavy = good;
+  heavy.hand->mass_kg = 20;
   HandReplayOptions options = Options();
+  options.mass_kg.reset();
   HandReplays replays(Hand(), Cube(), options);
   std::vector<Reason> reasons;
-  for (const plan::Plan* plan :
-       std::vector<const plan::Plan*>{&begun, &good, &other, &begun, &slippery, &good}) {
+  for (const plan::Plan* plan : std::vector<const plan::Plan*>{&begun, &good, &other, &begun,
+                                                               &slippery, &good, &heavy, &good}) {
     SCOPED_TRACE(reasons.size());
     const ReplayResult alone = ReplayOf(*plan, options);
     ExpectSame(replays.Replay(*plan, {}), alone);
@@ -412,6 +429,7 @@ TEST(HandReplaysTest, GiveWhatEachPlanAloneGivesWhateverWasReplayedBefore) {
   EXPECT_EQ(reasons[1], Reason::kNone);
   EXPECT_NE(reasons[2], Reason::kNone);
   EXPECT_NE(reasons[4], Reason::kNone);
+  EXPECT_NE(reasons[6], Reason::kNone);
 }
 
 TEST(HandReplaysTest, WithoutAShakeTheyGiveTheSameToo) {
