@@ -70,8 +70,11 @@ class GraspTableColumns {
   [[nodiscard]] Element Head() const {
     Element head("tr");
     ForEach({}, [&](std::string_view name, const std::string&, bool is_number) {
+      const bool is_text = name == "reason" || name == "likely cause";
       head.Add(name == "verdict" ? report::FilterHeadCell(name, "verdict")
-                                 : report::HeadCell(name, is_number ? "number" : ""));
+                                 : report::HeadCell(name, is_number ? "number"
+                                                          : is_text ? "text"
+                                                                    : ""));
     });
     return head;
   }

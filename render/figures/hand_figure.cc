@@ -209,12 +209,7 @@ HandPanels::HandPanels(const object::Polyhedron& solid, const plan::Plan& plan,
       names_(hand.finger_names),
       model_(solid, plan.scale, plan.friction_angle, snapshots_, OptionsOf(hand, options)),
       camera_(MakeCameras(model_, snapshots_).common) {
-  std::vector<ShadedMesh> meshes;
-  // Every second mesh is the shell of a link.
-  std::vector<ShadedMesh> with_shells = MakeHandMeshes(*hand.view, model_.frame);
-  for (std::size_t i = 1; i < with_shells.size(); i += 2) {
-    meshes.push_back(std::move(with_shells[i]));
-  }
+  const std::vector<ShadedMesh> meshes = MakeLinkMeshes(*hand.view, model_.frame);
   for (plan::EntryIndex entry{0}; entry < count(); ++entry) {
     captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry, names_));
     drawings_.push_back(DrawingOf(snapshots_[entry], meshes, options.body.crease_angle));

@@ -81,6 +81,8 @@ void SolidPainter::DrawBody() {
   }
   FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
   edges_ = Edges();
+  // Hidden parts of a scan's outline have no edges to which they could belong.
+  if (!body_.shell.triangles.empty()) edges_.hidden.clear();
   SetColor(cr_, kHiddenInk);
   cairo_set_dash(cr_, &kHiddenDash, 1, 0);
   for (const auto& [a, b] : edges_.hidden) StrokeLine(cr_, camera_(a), camera_(b), kHiddenEdge);

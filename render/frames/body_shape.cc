@@ -223,7 +223,10 @@ BodyShape MakeBodyShape(const object::Object& object, const BodyOptions& options
   const bool curved = IsCurvedEverywhere(edges, normals, options.crease_angle);
   shape.surface = ShadeSmoothly(mesh, normals, curved ? kCurvedCreaseAngle : options.crease_angle);
   shape.rays = RayTree(shape.surface);
-  if (options.edges != EdgeStyle::kNone) AddEdges(mesh, edges, normals, options, curved, shape);
+  if (options.edges != EdgeStyle::kNone) {
+    AddEdges(mesh, edges, normals, options, curved, shape);
+    if (curved) shape.shell = MakeShell(shape.surface, kEdgeWidth);
+  }
   return shape;
 }
 

@@ -28,6 +28,9 @@ struct Fold {
   std::array<Eigen::Vector3d, 2> normals;  ///< outward unit normals of the two triangles
 };
 
+/// Width of edges and outlines, in diameters.
+inline constexpr double kEdgeWidth = 0.0052;
+
 /// Drawable parts of an object: its exact surface with smooth shading up to creases, its edges, and
 /// the folds that can be part of its outline. A surface that is curved nearly everywhere, like a
 /// scan, has smooth shading throughout.
@@ -36,6 +39,9 @@ struct BodyShape {
   RayTree rays;  ///< ray queries of the surface
   std::vector<std::array<Eigen::Vector3d, 2>> edges;
   std::vector<Fold> folds;
+  /// Shell of a surface that is curved nearly everywhere; empty for other surfaces. Its rim is a
+  /// smooth outline. The folds of such a surface would be a zigzag with loose ends.
+  ShadedMesh shell = {};
 };
 
 /// Default thickness of the prism that represents a polygon, in object diameters.

@@ -1,6 +1,7 @@
 #include "render/frames/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -59,24 +60,12 @@ void DrawSolid(const ShapePainter& painter, const Solid& solid) {
   painter.DrawOpaque(solid.shapes);
 }
 
-/// Draw a solid, and the rims of the veil and the shapes over it even if it hides them.
+/// Draw a solid and the shapes over it even if it hides them. The alpha of its samples is 0 at
+/// opaque shapes and 1 otherwise.
 void DrawXray(const ShapePainter& painter, const Drawing& drawing) {
   DrawSolid(painter, *drawing.solid);
-  if (drawing.veil && !drawing.veil->rims.empty()) {
-    gl().Clear(GL_DEPTH_BUFFER_BIT);
-    SetMask(false, false);
-    for (const Shape& shape : drawing.veil->shapes) painter.Draw(shape);
-    SetMask(true, false);
-    gl().Enable(GL_BLEND);
-    for (Shape rim : drawing.veil->rims) {
-      rim.opacity = kHiddenRimOpacity;
-      painter.Draw(rim);
-    }
-    gl().Disable(GL_BLEND);
-  }
   gl().Clear(GL_DEPTH_BUFFER_BIT);
-  SetMask(true, false);
-  painter.DrawOpaque(drawing.shapes);
+  painter.DrawOpaque(drawing.shapes, /*alpha=*/false);
   painter.BlendTranslucent(drawing.shapes);
   gl().Finish();
 }
@@ -91,17 +80,47 @@ void DrawWithSolid(const ShapePainter& painter, const Drawing& drawing) {
   gl().Finish();
 }
 
-/// Add a veil to the present image. The alpha of its visible samples is their opacity, and 0
-/// elsewhere.
-void AddVeil(const ShapePainter& painter, const Veil& veil) {
-  SetMask(false, true);
-  gl().Clear(GL_COLOR_BUFFER_BIT);
-  // The shapes hide nearly all of the rims, which need no colours there.
-  SetMask(false, false);
-  for (const Shape& shape : veil.shapes) painter.Draw(shape);
+/// Return an opacity whose alpha is odd for a rim and even for other shapes.
+double MarkedOpacity(double opacity, bool is_rim) {
+  const auto alpha = static_cast<int>(std::lround(kFullAlpha * opacity));
+  const bool is_odd = alpha % 2 != 0;
+  const int marked = is_odd == is_rim ? alpha : alpha > 0 ? alpha - 1 : 1;
+  return static_cast<double>(marked) / kFullAlpha;
+}
+
+bool IsRim(const unsigned char* sample) { return sample[3] % 2 != 0; }
+
+/// Draw a veil alone. The alpha of its samples is their opacity, which marks rims (MarkedOpacity),
+/// and 0 elsewhere.
+void DrawVeil(const ShapePainter& painter, const Veil& veil) {
+  ClearAll();
   SetMask(true, true);
-  for (const Shape& shape : veil.rims) painter.Draw(shape);
-  for (const Shape& shape : veil.shapes) painter.Draw(shape);
+  const auto draw = [&](Shape shape, bool is_rim) {
+    shape.opacity = MarkedOpacity(shape.opacity, is_rim);
+    painter.Draw(shape);
+  };
+  for (const Shape& shape : veil.shapes) draw(shape, false);
+  // The shapes hide nearly all of the rims, which need no colours there.
+  gl().DepthFunc(GL_LESS);
+  for (const Shape& shape : veil.rims) draw(shape, true);
+  gl().DepthFunc(GL_LEQUAL);
+  gl().Finish();
+}
+
+/// Set the alpha of a veil, which is the present image, to 0 where opaque shapes or the solid hide
+/// it.
+void HideVeil(const ShapePainter& painter, const Drawing& drawing) {
+  SetMask(false, true);
+  gl().DepthFunc(GL_LESS);
+  // Surfaces with colours of their own have an alpha of 1 in any case.
+  gl().BlendFunc(GL_ZERO, GL_ZERO);
+  gl().Enable(GL_BLEND);
+  painter.DrawOpaque(drawing.solid->shapes);
+  painter.DrawOpaque(drawing.shapes);
+  gl().Disable(GL_BLEND);
+  gl().BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl().DepthFunc(GL_LEQUAL);
+  SetMask(true, true);
   gl().Finish();
 }
 
@@ -266,19 +285,22 @@ class Canvas::Impl {
   /// Compose the samples of a drawing with a solid.
   const std::vector<unsigned char>& ComposeSolid(const ShapePainter& painter,
                                                  const Drawing& drawing, const SampleBand& band) {
-    DrawWithSolid(painter, drawing);
-    CopySamples(band, samples_);
-    if (drawing.veil) {  // it needs the depths of the drawing
-      AddVeil(painter, *drawing.veil);
+    if (drawing.veil) {
+      DrawVeil(painter, *drawing.veil);
+      CopySamples(band, rims_);
+      HideVeil(painter, drawing);
       CopySamples(band, veil_);
       FadeInWindows(drawing.veil->windows, band, veil_);
     }
+    DrawWithSolid(painter, drawing);
+    CopySamples(band, samples_);
     LayXray(painter, drawing, band);
     if (drawing.veil) LayVisible(veil_, samples_);
     return samples_;
   }
 
-  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there.
+  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has the
+  /// rims of a veil, even if the solid hides them.
   void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band) {
     const SampleBox box = VisibleBox(samples_, band);
     if (box.empty()) return;
@@ -286,12 +308,18 @@ class Canvas::Impl {
     gl().Enable(GL_SCISSOR_TEST);
     DrawXray(painter, drawing);
     gl().Disable(GL_SCISSOR_TEST);
-    const unsigned char* xray = context_.pixels().data();
+    const unsigned char* seen = context_.pixels().data();
     const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
+    const auto rim = static_cast<int>(std::lround(kFullAlpha * kHiddenRimOpacity));
     for (int y = box.bottom; y < box.top; ++y) {
       const std::size_t row = std::size_t(y) * band.width;
       for (std::size_t i = 4 * (row + box.left); i < 4 * (row + box.right); i += 4) {
-        if (samples_[i + 3] != 0) Lay(&xray[i], share, &samples_[i]);
+        if (samples_[i + 3] == 0) continue;
+        std::array<unsigned char, 4> xray;
+        std::copy_n(&seen[i], xray.size(), xray.begin());
+        const bool has_rim = drawing.veil && xray[3] != 0 && IsRim(&rims_[i]);
+        if (has_rim) Lay(&rims_[i], rim, xray.data());
+        Lay(xray.data(), share, &samples_[i]);
       }
     }
   }
@@ -376,7 +404,7 @@ class Canvas::Impl {
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
-  std::vector<unsigned char> samples_, veil_;  ///< buffers of ComposeSolid
+  std::vector<unsigned char> samples_, veil_, rims_;  ///< buffers of ComposeSolid
 };
 
 Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)

@@ -23,7 +23,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEdgeRadius = 0.0026;  // in diameters
 /// Number of edges above which they are drawn thinner, because the edges of a fine mesh would cover
 /// it.
 constexpr double kManyEdges = 150;
@@ -32,6 +31,12 @@ constexpr double kManyEdges = 150;
 constexpr double kRepresentativeRadius = 0.005;
 /// Opacity of the near surface if it shows clusters.
 constexpr double kClusterOpacity = 0.85;
+
+/// Size of texts in an image of a page, relative to those of a frame.
+constexpr double kPageFont = 1.5;
+
+/// Size of the details of links that an animation omits, pixels.
+constexpr double kLinkDetail = 0.7;
 
 /// Opacity of fingers behind an opaque object.
 constexpr double kXray = 0.6;
@@ -84,7 +89,7 @@ class FrameRenderer::Impl {
       : model_(object, scale, friction_angle, snapshots, options),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(model_, snapshots)),
-        canvas_(model_.CanvasMeshes(), width(), height(), options.supersampling) {}
+        canvas_(model_.CanvasMeshes(LinkDetail()), width(), height(), options.supersampling) {}
 
   [[nodiscard]] int width() const { return cameras_.common.width; }
   [[nodiscard]] int height() const { return cameras_.common.height; }
@@ -124,32 +129,43 @@ class FrameRenderer::Impl {
   }
 
  private:
+  /// Return the size of the details of links that are omitted, in diameters; 0 unless the frames
+  /// are those of an animation. The reduction of the meshes takes longer than one frame.
+  [[nodiscard]] double LinkDetail() const {
+    if (!model_.options.animated) return 0;
+    return kLinkDetail / cameras_.common.PixelsPerUnit(Vector3d::Zero());
+  }
+
   /// Draw rings, texts, marks and insets.
   void Annotate(const CairoImage& image, const Camera& camera, const plan::Snapshot& snapshot,
                 const std::vector<FingerGlyph>& fingers, const std::vector<Vector3d>& arrow,
                 const FrameText& text, const FaultMarks* fault, Color paper) {
-    DrawRings(image, camera, fingers, style_);
+    TextStyle style = style_;
+    if (text.is_on_page) style.font *= kPageFont;
+    DrawRings(image, camera, fingers, style);
     // The heading of a fault has the place of the progress.
     const bool has_heading = fault != nullptr;
     const std::string more = has_heading && !text.progress.empty() ? " · " + text.progress : "";
     std::vector<Obstacle> covered =
-        DrawCaption(image, camera, text.caption + more, model_.frame.diameter_m, style_);
+        DrawCaption(image, camera, text.caption + more, model_.frame.diameter_m, style);
     const auto cover = [&covered](const std::vector<Obstacle>& more) {
       covered.insert(covered.end(), more.begin(), more.end());
     };
-    if (!has_heading) cover(DrawProgress(image, camera, text.progress, style_));
+    if (!has_heading) cover(DrawProgress(image, camera, text.progress, style));
     cover(ObstaclesOf(camera, arrow));
     if (fault != nullptr) {
-      cover(DrawFaultMarks(image, camera, model_.frame, model_.body, fingers, *fault, style_));
+      FaultMarks marks = *fault;
+      if (text.is_on_page) marks.heading.clear();
+      cover(DrawFaultMarks(image, camera, model_.frame, model_.body, fingers, marks, style));
     }
     if (!model_.options.animated) {
       const Eigen::Isometry3d pose = model_.frame.BodyPose(snapshot.X_WO);
-      for (const AlignInset& inset : PlaceInsets(camera, fingers, covered, style_)) {
+      for (const AlignInset& inset : PlaceInsets(camera, fingers, covered, style)) {
         const Drawing body = DrawBody(pose, inset.camera, inset.magnification);
-        cover(DrawInset(image, inset, canvas_.Draw(inset.camera, body, paper), style_));
+        cover(DrawInset(image, inset, canvas_.Draw(inset.camera, body, paper), style));
       }
     }
-    DrawNumbers(image, camera, fingers, model_.options.finger_names, covered, style_);
+    DrawNumbers(image, camera, fingers, model_.options.finger_names, covered, style);
   }
 
   [[nodiscard]] Veil HandOf(const plan::Snapshot& snapshot, std::span<const FingerGlyph> fingers,
@@ -195,14 +211,14 @@ class FrameRenderer::Impl {
     if (model_.opaque()) {
       drawing.solid = Solid{NearSurface(pose), kXray};
       AddLines(model_.body.edges, pose, magnification, drawing.solid->shapes);
-      AddOutline(pose, camera, magnification, drawing.solid->shapes);
+      AddContour(pose, camera, magnification, drawing.solid->shapes);
       return drawing;
     }
     AddLines(model_.body.edges, pose, magnification, drawing.shapes);
     drawing.layers = {{{{MeshInstance{kInsideMesh, pose}, kBodyInside}}, kInsideOpacity},
                       {NearSurface(pose), NearOpacity()}};
     drawing.hiding = {{kOutsideMesh, pose}};
-    AddOutline(pose, camera, magnification, drawing.outline);
+    AddContour(pose, camera, magnification, drawing.outline);
     return drawing;
   }
 
@@ -235,6 +251,16 @@ class FrameRenderer::Impl {
     }
   }
 
+  /// Add the outline: the rim of the shell of a scan, or folds. A magnified rim would be too wide.
+  void AddContour(const Eigen::Isometry3d& pose, const Camera& camera, double magnification,
+                  std::vector<Shape>& shapes) const {
+    if (model_.body.shell.triangles.empty() || magnification != 1) {
+      AddOutline(pose, camera, magnification, shapes);
+    } else {
+      shapes.push_back({MeshInstance{kShellMesh, pose}, style_.ground.ink});
+    }
+  }
+
   void AddOutline(const Eigen::Isometry3d& pose, const Camera& camera, double magnification,
                   std::vector<Shape>& shapes) const {
     const auto to_eye = [&](const Vector3d& p) -> Vector3d {
@@ -247,7 +273,7 @@ class FrameRenderer::Impl {
                 double magnification, std::vector<Shape>& shapes) const {
     const auto edges = static_cast<double>(model_.body.edges.size());
     const double radius =
-        kEdgeRadius * std::min(1.0, std::sqrt(kManyEdges / edges)) / magnification;
+        kEdgeWidth / 2 * std::min(1.0, std::sqrt(kManyEdges / edges)) / magnification;
     for (const auto& [a, b] : lines) {
       shapes.push_back({Line{pose * a, pose * b, radius}, style_.ground.ink});
     }

@@ -35,6 +35,9 @@ inline constexpr int kCommonView = -1;
 struct FrameText {
   std::string caption;        ///< text at the bottom left
   std::string progress = {};  ///< text at the top right
+  /// Whether the image is part of a page. The page has the heading of a fault as text, so that the
+  /// image omits it. Labels are larger, because pages show images at a fraction of their size.
+  bool is_on_page = false;
 };
 
 struct FrameOptions {

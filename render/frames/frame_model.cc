@@ -28,7 +28,7 @@ std::vector<ShadedMesh> MakeClusterMeshes(const ShadedMesh& surface,
 std::vector<ShadedMesh> MakeMeshes(const BodyShape& body, bool planar, double friction_angle,
                                    const std::optional<roadmap::ClusterView>& clusters) {
   std::vector<ShadedMesh> meshes = {
-      body.surface, TurnInsideOut(body.surface),
+      body.surface, TurnInsideOut(body.surface), body.shell,
       planar ? MakeWedge(friction_angle, kConeLength) : MakeCone(friction_angle, kConeLength),
       MakeCone(kArrowHeadHalfAngle, kArrowHeadLength)};
   if (clusters) {
@@ -97,10 +97,12 @@ std::vector<Shape> FrameModel::FingerShapes(const std::vector<FingerGlyph>& fing
   return shapes;
 }
 
-std::vector<ShadedMesh> FrameModel::CanvasMeshes() const {
+std::vector<ShadedMesh> FrameModel::CanvasMeshes(double link_detail) const {
   std::vector<ShadedMesh> all = meshes;
   if (!options.hand) return all;
-  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame)) all.push_back(std::move(mesh));
+  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame, link_detail)) {
+    all.push_back(std::move(mesh));
+  }
   return all;
 }
 

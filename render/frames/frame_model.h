@@ -16,7 +16,7 @@ namespace regrasp::render {
 
 /// Canvas meshes of a frame. Meshes of clusters follow, one per colour, and then those of the
 /// hand's links.
-enum FrameMesh { kOutsideMesh, kInsideMesh, kConeMesh, kArrowMesh, kClusterMesh };
+enum FrameMesh { kOutsideMesh, kInsideMesh, kShellMesh, kConeMesh, kArrowMesh, kClusterMesh };
 
 /// The common data of the frames of a sequence: object, hand, meshes and scales.
 struct FrameModel {
@@ -32,7 +32,9 @@ struct FrameModel {
                                                   bool free_fingers) const;
   [[nodiscard]] std::vector<Shape> FingerShapes(const std::vector<FingerGlyph>& fingers) const;
   /// Return all meshes of the canvas.
-  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes() const;
+  /// @param link_detail  size of the details of links that are omitted, in diameters
+  ///                     (ReduceDetail).
+  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes(double link_detail) const;
   /// Return whether the object is drawn opaque.
   [[nodiscard]] bool opaque() const { return !planar && !options.glass; }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
 
+#include "render/frames/mesh_detail.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
@@ -34,8 +33,6 @@ constexpr double kWindow = 0.16;
 /// Hidden share of a finger above which its window is fully clear.
 constexpr double kMostHidden = 0.5;
 constexpr double kHandRaySkip = 1e-4;
-/// Length of a sum of unit normals, weighted by angles in radians, that counts as zero.
-constexpr double kLeastMean = 1e-3;
 
 Color Mixed(Color a, Color b, double share) {
   const auto mix = [share](int x, int y) {
@@ -53,92 +50,46 @@ ShadedMesh Normalized(ShadedMesh mesh, const NormalizedFrame& frame) {
 
 /// Flip connected parts whose triangles are oriented inwards: their shells would hide them.
 void OrientOutward(ShadedMesh& mesh) {
-  const int count = static_cast<int>(mesh.triangles.size());
-  std::vector<int> parts(count);
+  const WeldedMesh welded = Weld(mesh);
+  std::vector<int> parts(welded.vertices.size());
   std::iota(parts.begin(), parts.end(), 0);
   const auto part_of = [&parts](int i) {
     while (parts[i] != i) i = parts[i] = parts[parts[i]];
     return i;
   };
-  std::map<std::array<double, 3>, int> owner;  // first triangle of each corner
-  for (int i = 0; i < count; ++i) {
-    for (const Vector3d& p : mesh.triangles[i]) {
-      const auto [found, is_new] = owner.try_emplace({p.x(), p.y(), p.z()}, i);
-      if (!is_new) parts[part_of(i)] = part_of(found->second);
-    }
+  for (const auto& [a, b, c] : welded.triangles) {
+    parts[part_of(a)] = part_of(b);
+    parts[part_of(b)] = part_of(c);
   }
   // Volumes relative to a point in the middle, so that a part with holes has about the volume that
   // it encloses.
-  std::vector<Vector3d> sums(count, Vector3d::Zero());
-  std::vector<int> sizes(count, 0);
-  for (int i = 0; i < count; ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    sums[part_of(i)] += (a + b + c) / 3;
-    ++sizes[part_of(i)];
+  std::vector<Vector3d> sums(parts.size(), Vector3d::Zero());
+  std::vector<int> sizes(parts.size(), 0);
+  const auto part_of_triangle = [&](std::size_t t) { return part_of(welded.triangles[t][0]); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    sums[part_of_triangle(t)] += (a + b + c) / 3;
+    ++sizes[part_of_triangle(t)];
   }
-  std::vector<double> volumes(count, 0);
-  for (int i = 0; i < count; ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    const int part = part_of(i);
+  std::vector<double> volumes(parts.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const int part = part_of_triangle(t);
     const Vector3d middle = sums[part] / sizes[part];
     volumes[part] += (a - middle).cross(b - middle).dot(c - middle);
   }
-  for (int i = 0; i < count; ++i) {
-    if (volumes[part_of(i)] >= 0) continue;
-    std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    std::swap(mesh.normals[i][1], mesh.normals[i][2]);
-    for (Vector3d& normal : mesh.normals[i]) normal = -normal;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (volumes[part_of_triangle(t)] >= 0) continue;
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    std::swap(mesh.normals[t][1], mesh.normals[t][2]);
+    for (Vector3d& normal : mesh.normals[t]) normal = -normal;
   }
-}
-
-/// Offset a surface. Each corner moves along the mean normal of its triangles, weighted by their
-/// angles (Thürmer and Wüthrich 1998), so that the surface has no gaps at creases.
-void Grow(double by, ShadedMesh& mesh) {
-  std::map<std::array<double, 3>, Vector3d> sums;
-  for (const auto& corners : mesh.triangles) {
-    const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    if (across.isZero(0)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
-      const double angle = std::atan2(u.cross(v).norm(), u.dot(v));
-      const Vector3d& p = corners[k];
-      const auto [sum, is_new] = sums.try_emplace({p.x(), p.y(), p.z()}, Vector3d::Zero());
-      sum->second += angle * across.normalized();
-    }
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      Vector3d& p = mesh.triangles[i][k];
-      const auto sum = sums.find({p.x(), p.y(), p.z()});
-      // The mean of both sides of a sheet has no direction.
-      const bool has_mean = sum != sums.end() && sum->second.norm() > kLeastMean;
-      p += by * (has_mean ? Vector3d(sum->second.normalized()) : mesh.normals[i][k]);
-    }
-  }
-}
-
-/// Return a slightly enlarged mesh with inward orientation. The mesh hides all of it but the rim.
-ShadedMesh MakeShell(ShadedMesh mesh) {
-  Grow(kHandRim, mesh);
-  return TurnInsideOut(std::move(mesh));
-}
-
-/// Return the different corners of a mesh, in the order in which they first occur.
-std::vector<Vector3d> CornersOf(const ShadedMesh& mesh) {
-  std::set<std::array<double, 3>> known;
-  std::vector<Vector3d> corners;
-  for (const auto& triangle : mesh.triangles) {
-    for (const Vector3d& p : triangle) {
-      if (known.insert({p.x(), p.y(), p.z()}).second) corners.push_back(p);
-    }
-  }
-  return corners;
 }
 
 /// Return the farthest corners in many directions.
 std::vector<Vector3d> FarthestCorners(const ShadedMesh& mesh) {
   constexpr int kDirections = 96;
-  const std::vector<Vector3d> corners = CornersOf(mesh);
+  const std::vector<Vector3d> corners = Weld(mesh).vertices;
   std::vector<Vector3d> farthest;
   for (int i = 0; i < kDirections; ++i) {
     // Golden-angle spiral: evenly distributed over the sphere.
@@ -161,13 +112,24 @@ bool Touches(const plan::FingerState& finger) {
 
 }  // namespace
 
-std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand, const NormalizedFrame& frame) {
+std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand, const NormalizedFrame& frame,
+                                       double tolerance) {
   std::vector<ShadedMesh> meshes;
   for (const HandLinkView& view : hand) {
     ShadedMesh mesh = Normalized(view.mesh, frame);
+    if (tolerance > 0) mesh = ReduceDetail(mesh, tolerance);
     OrientOutward(mesh);
-    Grow(kHair * view.link.joints, mesh);
-    meshes.push_back(MakeShell(mesh));
+    if (view.link.joints > 0) Grow(kHair * view.link.joints, mesh);
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand, const NormalizedFrame& frame,
+                                       double tolerance) {
+  std::vector<ShadedMesh> meshes;
+  for (ShadedMesh& mesh : MakeLinkMeshes(hand, frame, tolerance)) {
+    meshes.push_back(MakeShell(mesh, kHandRim));
     meshes.push_back(std::move(mesh));
   }
   return meshes;

@@ -22,10 +22,18 @@ struct HandLinkView {
 /// The links of a hand in frames, in the order of plan::Snapshot::links_W, which has their poses.
 using HandView = std::vector<HandLinkView>;
 
+/// Return the drawn meshes of the links, in normalized units.
+/// @param tolerance  size of the details that are omitted, in normalized units (ReduceDetail); 0
+///                   for all triangles.
+[[nodiscard]] std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand,
+                                                     const NormalizedFrame& frame,
+                                                     double tolerance = 0);
+
 /// Return the canvas meshes of a hand, in normalized units. Each link has a dark shell, of which
-/// only the rim is visible as outline, and then its mesh.
+/// only the rim is visible as outline, and then its mesh (MakeLinkMeshes).
 [[nodiscard]] std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand,
-                                                     const NormalizedFrame& frame);
+                                                     const NormalizedFrame& frame,
+                                                     double tolerance = 0);
 
 /// The drawing of a hand without its meshes, which can be large.
 class HandFigure {

@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/container_hash/hash.hpp>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <unordered_map>
 #include <utility>
 
 namespace regrasp::render {
@@ -24,6 +27,15 @@ constexpr int kConeSegments = 72;
 constexpr int kCapsuleSides = 32;
 constexpr int kCapsuleRings = 8;
 constexpr int kBandSides = 6;
+
+/// Length of a sum of unit normals, weighted by angles in radians, that counts as zero.
+constexpr double kLeastMean = 1e-3;
+
+struct PointHash {
+  std::size_t operator()(const std::array<double, 3>& point) const {
+    return static_cast<std::size_t>(boost::hash_value(point));
+  }
+};
 
 /// Return two unit vectors that form a right-handed frame with `axis`.
 std::pair<Vector3d, Vector3d> AcrossOf(const Vector3d& axis) {
@@ -46,6 +58,51 @@ ShadedMesh TurnInsideOut(ShadedMesh mesh) {
     for (Vector3d& normal : mesh.normals[i]) normal = -normal;
   }
   return mesh;
+}
+
+WeldedMesh Weld(const ShadedMesh& mesh) {
+  WeldedMesh welded;
+  std::unordered_map<std::array<double, 3>, int, PointHash> known;
+  known.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles) {
+    std::array<int, 3>& triangle = welded.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d& p = corners[i];
+      const auto count = static_cast<int>(welded.vertices.size());
+      const auto [found, is_new] = known.try_emplace({p.x(), p.y(), p.z()}, count);
+      if (is_new) welded.vertices.push_back(p);
+      triangle[i] = found->second;
+    }
+  }
+  return welded;
+}
+
+void Grow(double by, ShadedMesh& mesh) {
+  const WeldedMesh welded = Weld(mesh);
+  std::vector<Vector3d> sums(welded.vertices.size(), Vector3d::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    const Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (across.isZero(0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
+      const double angle = std::atan2(u.cross(v).norm(), u.dot(v));
+      sums[welded.triangles[t][k]] += angle * across.normalized();
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& sum = sums[welded.triangles[t][k]];
+      // The mean of both sides of a sheet has no direction.
+      const bool has_mean = sum.norm() > kLeastMean;
+      mesh.triangles[t][k] += by * (has_mean ? Vector3d(sum.normalized()) : mesh.normals[t][k]);
+    }
+  }
+}
+
+ShadedMesh MakeShell(ShadedMesh mesh, double width) {
+  Grow(width, mesh);
+  return TurnInsideOut(std::move(mesh));
 }
 
 void ShadedMesh::Add(const std::array<Vector3d, 3>& corners,

@@ -25,6 +25,25 @@ struct ShadedMesh {
 /// Return the mesh with the opposite orientation.
 [[nodiscard]] ShadedMesh TurnInsideOut(ShadedMesh mesh);
 
+/// The triangles of a mesh by the indices of its different corners.
+struct WeldedMesh {
+  std::vector<Eigen::Vector3d> vertices;      ///< in the order in which they first occur
+  std::vector<std::array<int, 3>> triangles;  ///< vertex indices
+};
+
+/// Return a mesh in which triangles share corners of equal coordinates.
+[[nodiscard]] WeldedMesh Weld(const ShadedMesh& mesh);
+
+/// Offset a surface. Each corner moves along the mean normal of its triangles, weighted by their
+/// angles (Thürmer and Wüthrich 1998), so that the surface has no gaps at creases.
+/// @param by  distance, in units of the mesh.
+void Grow(double by, ShadedMesh& mesh);
+
+/// Return a slightly enlarged mesh with inward orientation. The mesh hides all of it but the rim,
+/// which is an outline of the mesh.
+/// @param width  width of the rim, in units of the mesh.
+[[nodiscard]] ShadedMesh MakeShell(ShadedMesh mesh, double width);
+
 /// Return a closed cone with its apex at the origin that opens along +z.
 /// @param friction_angle  angle between axis and side, radians.
 /// @param slant       length of the side.

@@ -397,14 +397,17 @@
       shown = shown && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1;
       element.style.display = shown ? '' : 'none';
       if (!shown) return;
-      var x = (at.x + 1) / 2 * width, y = (1 - at.y) / 2 * height;
+      var halfWidth = element.offsetWidth / 2, halfHeight = element.offsetHeight / 2;
+      var x = Math.max(halfWidth, Math.min(width - halfWidth, (at.x + 1) / 2 * width));
+      var y = (1 - at.y) / 2 * height;
+      function overlaps(other) {
+        return Math.abs(other.x - x) < other.halfWidth + halfWidth && Math.abs(other.y - y) < other.halfHeight + halfHeight;
+      }
       // Labels that would overlap move down.
-      placed.forEach(function (other) {
-        if (Math.abs(other.x - x) < 60 && Math.abs(other.y - y) < 18) y = other.y + 18;
-      });
-      placed.push({x: x, y: y});
-      var half = element.offsetWidth / 2;
-      x = Math.max(half, Math.min(width - half, x));
+      for (var other = placed.find(overlaps); other; other = placed.find(overlaps)) {
+        y = other.y + other.halfHeight + halfHeight + 1;
+      }
+      placed.push({x: x, y: y, halfWidth: halfWidth, halfHeight: halfHeight});
       element.style.transform = 'translate(' + x.toFixed(1) + 'px,' + y.toFixed(1) + 'px) translate(-50%,-50%)';
     });
   };

@@ -159,7 +159,10 @@ std::string FingerText(FingerIndex finger, FingerNames names) {
 std::string Margin(const sim::FingerMargins& margins, FingerNames names) {
   const auto least = sim::SmallestMargin(margins);
   if (!least || !std::isfinite(*least)) return kNoFinding;
-  return FormatDegrees(Degrees(*least)) + " (" +
+  // At the friction limit the margin is a rounding error, of either sign.
+  constexpr double kSmallestShown_deg = 0.005;
+  const double degrees = Degrees(*least);
+  return FormatDegrees(std::abs(degrees) < kSmallestShown_deg ? 0 : degrees) + " (" +
          FingerText(sim::FingerOfSmallestMargin(margins), names) + ")";
 }
 
@@ -205,11 +208,19 @@ std::vector<Element> WhatItTakes(const Report& report, FingerNames names) {
     for (std::size_t i = 0; i < texts.size(); ++i) rows[i].Add(NumberCell(texts[i]));
   }
   if (head.size() == 1) return {};
+  // The replay of a hand has no force margins.
+  const bool has_margins = std::ranges::any_of(steps, [](const ReportStep* step) {
+    return sim::SmallestMargin(step->replay->static_margins).has_value();
+  });
+  const std::string note =
+      "Weakest finger: the finger whose friction angle can decrease least while all others keep "
+      "theirs, to the angle that is required alone.";
+  const std::string margins =
+      " Force margin: the friction angle minus the largest angle between a finger’s force and its "
+      "normal in the replay.";
   return {
-      Element("h2", {}, "Required friction and force margins"), ScrolledTable(head, rows),
-      Note("Weakest finger: the finger whose friction angle can decrease least while all others "
-           "keep theirs, to the angle that is required alone. Force margin: the friction angle "
-           "minus the largest angle between a finger’s force and its normal in the replay.")};
+      Element("h2", {}, has_margins ? "Required friction and force margins" : "Required friction"),
+      ScrolledTable(head, rows), Note(note + (has_margins ? margins : ""))};
 }
 
 std::optional<double> Least(const ReportStep& step, double sim::ResistedWrench::*route) {

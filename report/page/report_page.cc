@@ -204,11 +204,13 @@ class Page {
     }
     plot.limit = PlotLimit{0, "", false};
     plot.failed = failed_;
+    const std::string rings =
+        " Rings: the friction angle minus the largest angle between a finger's force and its "
+        "normal, in the static grasp after the step in the replay.";
     return Figure({}, DrawStepPlot(plot), "Friction margin.",
                   "Discs: the friction angle minus the smallest one at which every grasp of the "
-                  "step is force closure. Rings: the friction angle minus the largest angle "
-                  "between a finger's force and its normal, in the static grasp after the step in "
-                  "the replay.");
+                  "step is force closure." +
+                      (plot.series.size() > 1 ? rings : ""));
   }
 
   [[nodiscard]] bool HasPicture(plan::EntryIndex index) const {

@@ -215,8 +215,9 @@ class Drawing {
     const double y = Y(plot_.limit->value);
     svg.Add(Line("limit", kLeft, y, kWidth - kRight, y));
     if (plot_.limit->label.empty()) return;
-    // The label is on the good side, where there is always space.
-    const double text = plot_.limit->from_above ? y + 3 * kHalfFont : y - kHalfFont;
+    // The label is above the line, where a passing plan has no values, unless there is no space.
+    const double above = y - kHalfFont, below = y + 3 * kHalfFont;
+    const double text = above - 2 * kHalfFont < kTop ? below : above;
     svg.Add(
         Text("end", kWidth - kRight - kTickGap, text, plot_.limit->label, {{"class", "limit"}}));
   }

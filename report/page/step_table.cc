@@ -168,7 +168,8 @@ std::string Required(const plan::StepCheck& check) {
 
 /// Return a cell with the name of its column, which cards of narrow screens show.
 Element NamedCell(std::string_view name, std::string_view text) {
-  return Element("td", {{"class", "number"}, {"data-name", std::string(name)}}, text);
+  const char* style = text == kNoStepValue ? "number none" : "number";
+  return Element("td", {{"class", style}, {"data-name", std::string(name)}}, text);
 }
 
 Element TitleCell(const std::string& title, const std::string& anchor) {

@@ -75,12 +75,6 @@ void AddTurns(const HandPicture& hand, ViewerScene& scene) {
   }
 }
 
-void Grow(double by, render::ShadedMesh& mesh) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) mesh.triangles[i][k] += by * mesh.normals[i][k];
-  }
-}
-
 void AddHand(const HandPicture& hand, ViewerScene& scene) {
   scene.X_WP = hand.X_WP();
   std::vector<int> first_joints;
@@ -96,7 +90,7 @@ void AddHand(const HandPicture& hand, ViewerScene& scene) {
     const bool of_palm = !view.link.finger.valid() || view.link.joints == 0;
     const int joint = of_palm ? -1 : first_joints[view.link.finger] + view.link.joints - 1;
     scene.links.push_back({joint, view.link.finger, view.is_fingertip, view.mesh});
-    Grow(kLinkGap * scene.diameter_m * view.link.joints, scene.links.back().mesh);
+    render::Grow(kLinkGap * scene.diameter_m * view.link.joints, scene.links.back().mesh);
   }
 }
 

@@ -28,9 +28,6 @@ constexpr render::Color kGood = {29, 107, 60};
 constexpr render::Color kBad = {179, 38, 30};
 constexpr render::Color kSkipped = {112, 120, 134};
 
-/// Largest number of cells in the overview image for steps after a failure.
-constexpr int kMostSkipped = 24;
-
 bool Failed(const ReportStep& step) { return step.verdict() == Verdict::kFail; }
 
 /// @param progress  motion of the object up to the end of the entry; may be empty.
@@ -93,16 +90,14 @@ const plan::HandState* StateAtFailure(const Report& report,
   return fails ? &samples.back().state : nullptr;
 }
 
-/// Add grey cells for the steps after a failure. The last cell represents all further steps.
-void AddSkipped(const Report& report, int cells, render::OverviewImage& sheet) {
+/// Add a grey cell for all steps after a failure.
+void AddSkipped(const Report& report, render::OverviewImage& sheet) {
   const auto first = std::ranges::find_if(report.steps, &ReportStep::skipped);
-  const auto skipped = static_cast<int>(report.steps.end() - first);
-  for (int i = 0; i < cells; ++i) {
-    const bool more = i + 1 == cells && skipped > cells;
-    sheet.AddEmpty(
-        MakeLabel(first[i]),
-        more ? "not replayed, and " + std::to_string(skipped - cells) + " more" : "not replayed");
-  }
+  if (first == report.steps.end()) return;
+  render::OverviewLabel label = MakeLabel(*first);
+  const plan::EntryIndex from = first->check.index, to = report.steps.back().check.index;
+  if (to > from) label.title = std::to_string(from) + " to " + std::to_string(to);
+  sheet.AddEmpty(label, "not replayed");
 }
 
 /// Return the options of frames with the hand and the names of its fingers.
@@ -187,7 +182,7 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                          const std::function<void(const DrawnFrame&)>& take) {
   const std::vector<ShownEntry> shown = ShowEntries(object, plan, options.hand, report);
   const auto count = static_cast<int>(shown.size());
-  const int skipped = std::min(static_cast<int>(report.steps.size()) - count, kMostSkipped);
+  const int skipped = count < static_cast<int>(report.steps.size()) ? 1 : 0;
   const render::FrameOptions frame = WithHand(options);
   const render::FrameRenderer renderer = MakeRenderer(object, report, shown, frame);
   const std::vector<std::string> progress = ProgressOf(options.hand, shown);
@@ -205,7 +200,8 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
   }
   const auto draw = [&tasks](render::FrameRenderer& drawer, int index) {
     const render::FrameTask& task = tasks[index];
-    const std::array texts = {task.text, render::FrameText{"", task.text.progress}};
+    const std::array texts = {task.text,
+                              render::FrameText{"", task.text.progress, /*is_on_page=*/true}};
     return drawer.RenderWithTexts(*task.snapshot, texts, task.fault, task.view);
   };
   const auto pass_on = [&](int index, const std::vector<render::Image>& images) {
@@ -215,7 +211,7 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
     options.on_picture(index + 1, count);
   };
   render::DrawInOrder(renderer, count, options.workers, draw, pass_on);
-  AddSkipped(report, skipped, sheet);
+  AddSkipped(report, sheet);
   return sheet.ToImage();
 }
 

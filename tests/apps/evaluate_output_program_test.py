@@ -254,6 +254,15 @@ class EvaluatePage(OutputCase):
         self.browser.open("file://" + self.path("p.html"))
         self.assertEqual(self.displayed(), 521)
 
+    def test_reasons_are_readable_on_a_phone(self):
+        self.browser.resize(390, 844)
+        self.addCleanup(self.browser.resize, 1000, 844)
+        self.open([grasp("open", 0.0)])
+        reason = self.browser.value("[...document.querySelectorAll('table.data th')]"
+                                    ".find(head => head.textContent.startsWith('reason')).offsetWidth")
+        self.assertGreaterEqual(reason, 150)
+        self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
+
     def disable_scripts(self):
         self.browser.command("Emulation.setScriptExecutionDisabled", value=True)
         self.addCleanup(self.browser.command, "Emulation.setScriptExecutionDisabled", value=False)

@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ElementTree
 import long_plan
 import program_case
 from browser import Browser, NO_WEBGL
-from picture_pixels import png_pixels, png_rows, png_size
+from picture_pixels import count, is_red, png_pixels, png_rows, png_size
 from program_case import ProgramCase
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
@@ -29,6 +29,23 @@ START = "document.getElementById('viewer').viewer.scene.ghost.quaternion.clone()
 # Hides what covers the scene and changes with time, so that a screenshot shows only the scene.
 SCENE_ONLY = ("document.querySelectorAll('.status, .overlay, .banner')"
               ".forEach(element => element.style.visibility = 'hidden')")
+
+
+# A function of an image of the page: the number of dark pixels in its top or bottom left corner.
+DARK_IN_CORNER = """((image, isTop) => {
+  const canvas = document.createElement('canvas');
+  const width = Math.floor(image.naturalWidth / 2), height = Math.floor(image.naturalHeight / 10);
+  canvas.width = width;
+  canvas.height = height;
+  const context = canvas.getContext('2d');
+  context.drawImage(image, 0, isTop ? 0 : height - image.naturalHeight);
+  const bytes = context.getImageData(0, 0, width, height).data;
+  return bytes.filter((value, i) => i % 4 === 1 && value < 128).length;
+})"""
+
+
+def is_dark(pixel):
+    return pixel[1] < 128
 
 
 def different_pixels(one, other):
@@ -57,11 +74,11 @@ class Viewer(ProgramCase):
         super().setUp()
         self.browser.resize(600, 900)
 
-    def validate_cube(self, *more, name="plan.json", code=0):
+    def validate_cube(self, *more, name="plan.json", code=0, size="320x240"):
         plan = self.plan_of_cube()
         self.write_json(name, plan)
         done = self.run_program("--object", self.model("cube.obj"), "--plan", name, "--output", "result",
-                                "--size", "320x240", *more)
+                                "--size", size, *more)
         self.assertEqual(done.returncode, code, done.stderr)
         return plan
 
@@ -104,6 +121,19 @@ class Viewer(ProgramCase):
         self.browser.resize(1000, 1000, media="print")
         self.assertEqual(self.visible(".still img"), 1)
         self.assertEqual(self.visible(".frames img"), frames - 1)
+
+    def test_captions_of_frames_are_text_on_the_page_and_pixels_only_in_files(self):
+        self.validate_cube(size="640x480")
+        self.open()
+        names = sorted(name for name in os.listdir(self.path("result")) if name[:3].isdigit())
+        self.assertEqual(self.browser.value("document.querySelectorAll('.frames img').length"), len(names))
+        for index, name in enumerate(names):
+            # A caption is the only dark text in the bottom left corner.
+            rows = png_pixels(self.read("result/" + name))
+            corner = [row[:len(row) // 2] for row in rows[9 * len(rows) // 10:]]
+            self.assertGreater(count(corner, is_dark), 50, name)
+            image = f"(document.querySelectorAll('.frames img')[{index}], false)"
+            self.assertEqual(self.browser.value(DARK_IN_CORNER + image), 0, name)
 
     def test_links_keys_and_the_slider_move_the_replay(self):
         self.validate_cube()
@@ -153,7 +183,7 @@ class Viewer(ProgramCase):
         self.assertEqual(different_pixels(before, self.scene()), 0)
 
     def test_a_failed_plan_opens_at_the_failing_instant_with_the_reason(self):
-        self.validate_cube("--friction-angle", "6", code=1)
+        self.validate_cube("--friction-angle", "6", code=1, size="640x480")
         self.open()
         self.assertEqual(self.browser.console, [])
         end = self.browser.value("document.getElementById('viewer').viewer.end")
@@ -162,8 +192,23 @@ class Viewer(ProgramCase):
         self.assertEqual(self.browser.value(banner), "block")
         detail = next(step["detail"] for step in self.report()["steps"] if step["verdict"] == "fail")
         self.assertEqual(self.browser.value("document.querySelector('.banner').textContent"), detail)
+        self.assert_no_labels_overlap()
+        # The page has the reason as text only, the file in its image.
+        self.assertGreater(count(png_pixels(self.read("result/000_hold.png"))[:48], is_red), 50)
+        self.assertEqual(self.browser.value(DARK_IN_CORNER + "(document.querySelector('.failure img'), true)"), 0)
         self.browser.press("ArrowLeft")
         self.assertEqual(self.browser.value(banner), "none")
+
+    def assert_no_labels_overlap(self):
+        boxes = json.loads(self.browser.value(
+            "JSON.stringify([...document.querySelectorAll('.tag')].filter(tag => tag.getClientRects().length)"
+            ".map(tag => tag.getBoundingClientRect()).map(b => [b.left, b.right, b.top, b.bottom]))"))
+        self.assertGreater(len(boxes), 4)
+        for i, one in enumerate(boxes):
+            for other in boxes[:i]:
+                apart = (one[0] >= other[1] - 1 or other[0] >= one[1] - 1 or
+                         one[2] >= other[3] - 1 or other[2] >= one[3] - 1)
+                self.assertTrue(apart, (one, other))
 
     def test_a_hand_turns_the_object(self):
         self.assert_done("--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"), "--scale",

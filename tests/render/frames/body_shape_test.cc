@@ -182,9 +182,12 @@ TEST(BodyShapeTest, AScanHasNoCreasesButAnOutline) {
   const BodyShape shape = MakeBodyShape(lens);
   EXPECT_TRUE(shape.edges.empty()) << "it bends at every edge, and sharply only at its equator";
   EXPECT_FALSE(FindOutline(shape, [](const Vector3d&) { return Vector3d(1, 0, 0); }).empty());
+  EXPECT_LT(Volume(shape.shell), -Volume(shape.surface)) << "larger, and oriented inwards";
+  EXPECT_TRUE(MakeBodyShape(lens, {.edges = EdgeStyle::kNone}).shell.triangles.empty());
   EXPECT_GT(MakeBodyShape(lens, {.edges = EdgeStyle::kAll}).edges.size(), 24U);
   // A cylinder with planar ends is not a scan.
   EXPECT_FALSE(MakeBodyShape(MakeRoundPrism(64)).edges.empty());
+  EXPECT_TRUE(MakeBodyShape(MakeRoundPrism(64)).shell.triangles.empty());
 }
 
 /// Return the number of triangles with different normals at their corners.

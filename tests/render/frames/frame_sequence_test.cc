@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/base/number.h"
+#include "render/frames/fault_marks.h"
 #include "render/frames/replay_animation.h"
 #include "tests/render/frames/scenes.h"
 
@@ -62,6 +63,25 @@ TEST_F(FrameSequenceTest, AFrameWithSeveralTextsIsThatOfEachText) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(images[i].rgb == renderer_.Render(snapshots_[1], texts[i]).rgb) << i;
   }
+}
+
+TEST_F(FrameSequenceTest, AnImageOfAPageHasNoHeadingAndLargerLabels) {
+  const FaultMarks marks{.heading = "finger 0 slips by far", .fingers = {}};
+  const auto count_red = [&](const FrameText& text, const FaultMarks* fault) {
+    const Image image = renderer_.Render(snapshots_[1], text, fault);
+    int red = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+      const Color c = {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
+      red += c.r > 150 && c.g < 60 && c.b < 60 ? 1 : 0;
+    }
+    return red;
+  };
+  const FrameText in_file, on_page = {"", "", /*is_on_page=*/true};
+  EXPECT_GT(count_red(in_file, &marks), count_red(in_file, nullptr) + 50);
+  EXPECT_EQ(count_red(on_page, &marks), count_red(on_page, nullptr));
+  const Image small = renderer_.Render(snapshots_[1], in_file);
+  const Image large = renderer_.Render(snapshots_[1], on_page);
+  EXPECT_FALSE(small.rgb == large.rgb);
 }
 
 TEST_F(FrameSequenceTest, NothingToDrawIsNoWork) {

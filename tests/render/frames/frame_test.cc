@@ -8,6 +8,7 @@
 
 #include "planner/base/number.h"
 #include "planner/object/polygon.h"
+#include "planner/object/polygon_soup.h"
 #include "render/frames/fault_marks.h"
 #include "render/picture/image.h"
 #include "tests/render/frames/scenes.h"
@@ -85,6 +86,68 @@ TEST(FrameTest, DrawsTheLargestSizeInBandsWithoutSeams) {
   }
   constexpr double kMeanDifference = 1.5;  // of 255: antialiasing differs along edges
   EXPECT_LT(static_cast<double>(difference) / small.rgb.size(), kMeanDifference);
+}
+
+/// Return a coarse and noisy sphere, like a scan, with a diameter of about 0.1 m.
+object::Polyhedron MakeNoisySphere() {
+  constexpr int kRings = 11, kSides = 24;
+  object::PolygonSoup soup;
+  const auto radius = [](int i) { return 0.05 * (1 + 0.012 * std::sin(12.9898 * i * i)); };
+  for (int ring = 1; ring <= kRings; ++ring) {
+    for (int side = 0; side < kSides; ++side) {
+      const double tilt = M_PI * ring / (kRings + 1), turn = 2 * M_PI * side / kSides;
+      soup.vertices.push_back(radius(ring * kSides + side) *
+                              Eigen::Vector3d(std::sin(tilt) * std::cos(turn),
+                                              std::sin(tilt) * std::sin(turn), std::cos(tilt)));
+    }
+  }
+  const int top = static_cast<int>(soup.vertices.size()), bottom = top + 1;
+  soup.vertices.emplace_back(0, 0, 0.05);
+  soup.vertices.emplace_back(0, 0, -0.05);
+  for (int side = 0; side < kSides; ++side) {
+    const int next = (side + 1) % kSides, last = (kRings - 1) * kSides;
+    soup.facets.push_back({top, side, next});
+    soup.facets.push_back({bottom, last + next, last + side});
+    for (int ring = 0; ring + 1 < kRings; ++ring) {
+      const int a = ring * kSides + side, b = ring * kSides + next;
+      soup.facets.push_back({a, a + kSides, b});
+      soup.facets.push_back({b, a + kSides, b + kSides});
+    }
+  }
+  return object::Polyhedron::FromSoup(soup, "sphere");
+}
+
+TEST(FrameTest, AScanHasAnOutlineAndNoScratches) {
+  const object::Polyhedron sphere = MakeNoisySphere();
+  FrameOptions options{480, 480, 1};
+  options.view.direction = ViewDirection{0, 0};
+  const Image image = Draw(sphere, {{}}, 0, options);
+  // Ink inside the outline: edges of the mesh of which one side faces the eye.
+  double x_sum = 0, y_sum = 0;
+  int body = 0;
+  const auto is_dark = [](Color c) { return c.g < 90; };
+  const auto is_body = [&](Color c) { return !IsWhite(c) && !is_dark(c); };
+  constexpr int kAboveTexts = 400;
+  for (int y = 0; y < kAboveTexts; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (!is_body(PixelAt(image, x, y))) continue;
+      x_sum += x;
+      y_sum += y;
+      ++body;
+    }
+  }
+  const double radius = std::sqrt(body / M_PI);
+  int rim = 0, scratches = 0;
+  for (int y = 0; y < kAboveTexts; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (!is_dark(PixelAt(image, x, y))) continue;
+      const double away = std::hypot(x - x_sum / body, y - y_sum / body);
+      ++(away < 0.93 * radius ? scratches : rim);
+    }
+  }
+  EXPECT_GT(body, 10'000);
+  EXPECT_GT(rim, 2 * radius);
+  EXPECT_LT(scratches, 5);
 }
 
 /// A box ten times as long as wide, along x, with fingers at its ends.

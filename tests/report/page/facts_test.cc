@@ -96,6 +96,16 @@ TEST(FindingsTest, EveryReplayedStepHasItsWeakestFingerAndItsMargins) {
   EXPECT_THAT(text, Not(HasSubstr("Fixed grasp force")));
 }
 
+TEST(FindingsTest, AMarginAtTheLimitIsZeroWithoutASign) {
+  Report report = MakeReport();
+  for (ReportStep& step : report.steps) step.replay->static_margins[FingerIndex(2)] = -1e-7;
+  EXPECT_THAT(FormatFindings(report), HasSubstr(">0.00° (finger 2)"));
+  for (ReportStep& step : report.steps) {
+    step.replay->static_margins[FingerIndex(2)] = Radians(-0.02);
+  }
+  EXPECT_THAT(FormatFindings(report), HasSubstr(">-0.02° (finger 2)"));
+}
+
 TEST(FindingsTest, FingersOfAHandHaveTheirNames) {
   const std::vector<std::string> names = {"<index>", "middle", "ring", "thumb"};
   const std::string text = Element("main", {}, MakeFindings(MakeReport(), names)).Format();
@@ -111,10 +121,11 @@ TEST(FindingsTest, ColumnsWithoutAValueAreOmitted) {
   for (ReportStep& step : report.steps) step.replay->disturbance_margins.clear();
   EXPECT_THAT(FormatFindings(report), Not(HasSubstr("Least force margin, disturbances")));
   EXPECT_THAT(FormatFindings(report), HasSubstr("Least force margin, static grasp"));
-  for (ReportStep& step : report.steps) {
-    step.replay->static_margins.clear();
-    step.weakest_finger.reset();
-  }
+  EXPECT_THAT(FormatFindings(report), HasSubstr("Force margin: "));
+  for (ReportStep& step : report.steps) step.replay->static_margins.clear();
+  EXPECT_THAT(FormatFindings(report), HasSubstr("Required alone"));
+  EXPECT_THAT(FormatFindings(report), Not(HasSubstr("orce margin")));
+  for (ReportStep& step : report.steps) step.weakest_finger.reset();
   EXPECT_EQ(FormatFindings(report), "<main></main>");
 }
 

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <regex>
 #include <stdexcept>
+#include <string>
 
 namespace regrasp::report {
 namespace step_plot_test {
@@ -49,6 +51,29 @@ TEST(StepPlotTest, TextsAreEscapedAndTheLimitIsNamed) {
   StepPlot plot = MakePlot();
   plot.limit.reset();
   EXPECT_EQ(Count(FormatStepPlot(plot), "limit"), 0);
+}
+
+/// Return by how much the name of the limit is below its line.
+double HeightBelowLimit(const StepPlot& plot) {
+  const std::string svg = FormatStepPlot(plot);
+  const auto height_of = [&svg](const std::string& element, const std::string& name) {
+    std::smatch tag, value;
+    const std::regex wanted("<" + element + "[^>]*class=\"limit\"[^>]*>");
+    if (!std::regex_search(svg, tag, wanted)) throw std::runtime_error("no limit");
+    const std::string text = tag.str();
+    if (!std::regex_search(text, value, std::regex(" " + name + "=\"([0-9.]+)\"")))
+      throw std::runtime_error("no height");
+    return std::stod(value[1]);
+  };
+  return height_of("text", "y") - height_of("line", "y1");
+}
+
+TEST(StepPlotTest, TheNameOfALimitDoesNotCoverTheAxis) {
+  StepPlot plot = MakePlot();
+  EXPECT_GT(HeightBelowLimit(plot), 0) << "on the good side";
+  plot.series = {{"moved", {2e-3, 8e-4, 1e-2}, PlotMark::kDisc}};
+  plot.limit->value = 1e-4;  // at the end of the axis
+  EXPECT_LT(HeightBelowLimit(plot), 0);
 }
 
 TEST(StepPlotTest, AFailedStepIsMarkedAndWhatFollowsIsShaded) {
