@@ -60,6 +60,83 @@ object::PolygonSoup SoupOf(const Tube& tube) {
   return soup;
 }
 
+/// Point of the profile of a solid of revolution, mm.
+struct ProfilePoint {
+  double z;
+  double radius;
+};
+
+/// Return a solid of revolution about z, approximated by flat sides.
+/// @param profile  points from the bottom to the top, with positive radii of the corners.
+/// @param phase  angle of the first corner from x, radians.
+object::PolygonSoup Revolved(const std::vector<ProfilePoint>& profile, int sides,
+                             double phase = 0) {
+  object::PolygonSoup soup;
+  for (const auto& [z, radius] : profile) {
+    for (int k = 0; k < sides; ++k) {
+      const double turn = phase + 2 * std::numbers::pi * k / sides;
+      soup.vertices.emplace_back(radius * std::cos(turn), radius * std::sin(turn), z);
+    }
+  }
+  const int last = static_cast<int>(profile.size()) - 1;
+  std::vector<int> bottom;
+  std::vector<int> top;
+  for (int k = 0; k < sides; ++k) {
+    const int next = (k + 1) % sides;
+    for (int i = 0; i < last; ++i) {
+      const int a = i * sides + k;
+      const int b = i * sides + next;
+      soup.facets.push_back({a, b, b + sides});
+      soup.facets.push_back({a, b + sides, a + sides});
+    }
+    bottom.insert(bottom.begin(), k);
+    top.push_back(last * sides + k);
+  }
+  soup.facets.push_back(bottom);
+  soup.facets.push_back(top);
+  return soup;
+}
+
+/// Return a straight prism whose corners have a distance of `radius` from z, mm.
+object::PolygonSoup Prism(double radius, double length, int sides, double phase = 0) {
+  return Revolved({{-length / 2, radius}, {length / 2, radius}}, sides, phase);
+}
+
+/// Return a box with these edges along x, y and z, mm.
+object::PolygonSoup Box(const Vector3d& edges) {
+  object::PolygonSoup soup;
+  for (const int corner : {0, 1, 3, 2, 4, 5, 7, 6}) {
+    const Vector3d sign((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);
+    soup.vertices.emplace_back(edges.cwiseProduct(sign));
+  }
+  soup.facets = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return soup;
+}
+
+/// Dimensions of a screwdriver, mm.
+struct Screwdriver {
+  double handle_diameter;
+  double handle_length;
+  double shaft_diameter;
+  double shaft_length;
+  double chamfer;   ///< of the free end of the handle
+  double shoulder;  ///< length of the cone from the handle to twice the diameter of the shaft
+};
+
+object::PolygonSoup SoupOf(const Screwdriver& driver, int sides) {
+  const double radius = driver.handle_diameter / 2;
+  const double shaft = driver.shaft_diameter / 2;
+  const double end = driver.handle_length;
+  return Revolved({{0, radius - driver.chamfer},
+                   {driver.chamfer, radius},
+                   {end - driver.shoulder, radius},
+                   {end, 2 * shaft},
+                   {end, shaft},
+                   {end + driver.shaft_length, shaft}},
+                  sides);
+}
+
 /// Coordinates are rounded to a millionth of a unit, so that the bytes do not depend on the last
 /// bits of a sine.
 std::string ObjText(const object::PolygonSoup& soup) {
@@ -78,9 +155,14 @@ std::string ObjText(const object::PolygonSoup& soup) {
   return text;
 }
 
-HandBody TubeBody(const std::string& name, const std::string& what, const Tube& tube) {
+HandBody MillimetreBody(const std::string& name, const std::string& what,
+                        const object::PolygonSoup& soup) {
   constexpr double kMillimetre = 1e-3;
-  return BodyOf(name, what, ObjText(SoupOf(tube)), kMillimetre);
+  return BodyOf(name, what, ObjText(soup), kMillimetre);
+}
+
+HandBody TubeBody(const std::string& name, const std::string& what, const Tube& tube) {
+  return MillimetreBody(name, what, SoupOf(tube));
 }
 
 /// Return a model of models/ scaled to a diameter. The scale has six digits, so that a user can
@@ -139,6 +221,32 @@ std::vector<HandBody> CompetitionBodies(const std::filesystem::path& models) {
         TubeBody("cylinder-" + diameter, "cylinder, diameter " + diameter + " mm, 80 mm tall",
                  {.rings = 2, .sides = 32, .bend = 0, .length = 80, .radius = diameter_mm / 2.0}));
   }
+  return bodies;
+}
+
+std::vector<HandBody> EverydayBodies() {
+  constexpr int kSides = 20;
+  constexpr double kQuarter = std::numbers::pi / 4;
+  constexpr Screwdriver kScrewdriver = {.handle_diameter = 32,
+                                        .handle_length = 105,
+                                        .shaft_diameter = 8,
+                                        .shaft_length = 110,
+                                        .chamfer = 4,
+                                        .shoulder = 8};
+  std::vector<HandBody> bodies;
+  bodies.push_back(MillimetreBody("box", "box, 30 x 40 x 80 mm", Box({30, 40, 80})));
+  bodies.push_back(MillimetreBody("rod-square", "square rod, 15 x 15 x 120 mm",
+                                  Prism(7.5 * std::numbers::sqrt2, 120, 4, kQuarter)));
+  bodies.push_back(MillimetreBody("rod-20", "rod with 20 sides, diameter 15 mm, 120 mm long",
+                                  Prism(7.5, 120, kSides)));
+  bodies.push_back(
+      MillimetreBody("cap", "cap, diameter 60 mm, 20 mm tall, 32 sides", Prism(30, 20, 32)));
+  bodies.push_back(MillimetreBody("pen",
+                                  "pen, diameter 12 mm, 140 mm long, 20 sides, conical point",
+                                  Revolved({{0, 1}, {20, 6}, {138, 6}, {140, 4}}, kSides)));
+  bodies.push_back(MillimetreBody("screwdriver",
+                                  "screwdriver, handle 32 x 105 mm, shaft 8 x 110 mm, 20 sides",
+                                  SoupOf(kScrewdriver, kSides)));
   return bodies;
 }
 

@@ -42,4 +42,10 @@ struct HandBody {
 /// of 80 mm.
 [[nodiscard]] std::vector<HandBody> CompetitionBodies(const std::filesystem::path& models);
 
+/// Return generated objects that are long, thin or flat.
+/// These are a box, a square rod, a rod with 20 sides, a cap, a pen and a screwdriver, the long
+/// ones along z. The screwdriver has the dimensions of object 044 of the YCB set and is not its
+/// scan.
+[[nodiscard]] std::vector<HandBody> EverydayBodies();
+
 }  // namespace regrasp::bench

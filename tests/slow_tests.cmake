@@ -60,6 +60,7 @@ set(regrasp_slow_tests
   ConditionControlsTest.*
   DrawOnSurface.GivesGood*
   */EveryPlanner.Obeys/*Quality
+  FailureCausesTest.NameAnObjectThat*
   FileTest.AFileThatIsTooLarge*
   FindContactChain.*
   FrameTest.DrawsTheLargest*

@@ -130,6 +130,7 @@ void InHandProgram::Read() {
       bodies_.push_back(std::move(body));
     }
   }
+  std::ranges::move(bench::EverydayBodies(), std::back_inserter(bodies_));
   for (const Task& read : tasks_) (void)bench::BodyNamed(bodies_, read.body);
   if (!bih.empty()) ReadBih();
   for (const std::string& file : hand_files) hands_.push_back(kinematics::ReadHandFile(file));

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <span>
 #include <stdexcept>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
+#include "planner/gait/failure_causes.h"
 #include "planner/gait/gait_search.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/rolled_gait.h"
@@ -70,20 +72,6 @@ std::string FailuresText(const FailureCounts& failures) {
   return text;
 }
 
-/// Name the fingers that hold the object in every grasp, although the hand has more than a grasp
-/// needs. Such a finger never changes its contact, which ends a long rotation.
-std::string AlwaysHoldingText(const kinematics::HandModel& hand, const GaitCounts& counts) {
-  constexpr std::int64_t kFewestGrasps = 20;
-  if (hand.fingers.size() <= kFewestHoldingFingers || counts.evaluated < kFewestGrasps) return "";
-  std::string fingers;
-  for (std::size_t finger = 0; finger < counts.holding.size(); ++finger) {
-    if (counts.holding[finger] < counts.evaluated) continue;
-    fingers += (fingers.empty() ? "" : " and ") + hand.fingers[finger].name;
-  }
-  if (fingers.empty()) return "";
-  return ", all of them held by " + fingers + ", which therefore keeps its contact";
-}
-
 /// Describe why no search succeeded, with the counts of the search that moved the object farthest.
 std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
@@ -97,8 +85,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
   const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
   std::string text = ProgressText(request, best) + "; the best of " +
                      std::to_string(counts.size()) + " initial poses has " +
-                     std::to_string(best.evaluated) + " grasps" +
-                     AlwaysHoldingText(*request.hand, best);
+                     std::to_string(best.evaluated) + " grasps";
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
@@ -344,6 +331,8 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
+  SearchEvidence evidence;
+  std::mutex adding;
   const FindOne find = [&](const GaitRequest& asked,
                            std::span<const RobustnessMargins> margin_sets) -> FoundGait {
     std::vector<std::unique_ptr<SearchConfig>> configs;
@@ -375,9 +364,16 @@ GaitResult FindGait(const GaitRequest& request) {
       drawn.seed = asked.seed + (static_cast<std::uint64_t>(draw) << kRollingShift);
       MultiStartSearch search(drawn, terms, ends);
       const std::optional<Gait> gait = search.Search();
-      if (!gait) return {std::nullopt, FailureSummary(asked, search.counts())};
+      if (!gait) {
+        const std::scoped_lock lock(adding);
+        evidence.Add(search.counts());
+        if (evidence.tracks.empty()) evidence.tracks = search.drawn_tracks();
+        return {std::nullopt, FailureSummary(asked, search.counts())};
+      }
       found = Planned(configs.front()->setup, asked, rolled_on, *gait);
       if (found.gait) break;
+      const std::scoped_lock lock(adding);
+      ++evidence.unrolled;
     }
     return found;
   };
@@ -395,6 +391,12 @@ GaitResult FindGait(const GaitRequest& request) {
   result.gait = std::move(simulated.found.gait);
   result.message = std::move(simulated.found.message);
   result.execution = std::move(simulated.execution);
+  if (!result.gait && request.names_causes) {
+    if (result.execution) evidence.force = result.execution->force;
+    const SearchConfig config(request, nullptr, surface, inverse, points, fingers);
+    const std::string causes = CausesText(LikelyCauses(config.setup, request, evidence));
+    if (!causes.empty()) result.message += "; " + causes;
+  }
   return result;
 }
 

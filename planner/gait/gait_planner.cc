@@ -77,6 +77,7 @@ Relaxation TiltedPalm(kinematics::HandModel& hand) {
 /// Return a probe with a smaller budget. Actuators are ignored unless they limit the request.
 GaitRequest ProbeOf(const GaitRequest& request, bool with_actuators) {
   GaitRequest probe = request;
+  probe.names_causes = false;
   if (!with_actuators) probe.robustness = RobustnessLevel::kNone;
   probe.most_expanded = std::min(request.most_expanded,
                                  std::max(kFewestExpanded, request.most_expanded / kProbeFraction));
@@ -110,6 +111,7 @@ GaitRequest RequestFor(const PlanRequest& asked) {
   request.most_expanded =
       asked.parameters.Get<planning::SearchParameters>().budget.value_or(kDefaultExpanded);
   request.seeks_most_margin = asked.objective == planning::Objective::kMargin;
+  request.names_causes = true;
   request.deadline = asked.deadline;
   request.jobs = asked.jobs;
   request.progress = asked.progress;

@@ -161,6 +161,7 @@ class GoalListSearch {
     GaitRequest request = RequestFor(goal, before);
     request.robustness = RobustnessLevel::kNone;
     request.simulate = nullptr;
+    request.names_causes = false;
     request.most_expanded = std::min(request.most_expanded, kLookAheadExpanded);
     request.deadline = request_.deadline.After(kLookAheadTime);
     return FindGait(request).gait.has_value();

@@ -31,6 +31,8 @@ struct GaitRequest : planning::InHandTask {
   /// one with the largest tolerance margin (planning::ExecutionResult::tolerance_margin), instead
   /// of the first one. Requires a simulator.
   bool seeks_most_margin = false;
+  /// Append the likely causes of a failure to its message (LikelyCauses).
+  bool names_causes = false;
   Deadline deadline = {};
   int jobs = 1;  ///< number of parallel searches if plans are simulated, ≥ 1
   planning::Progress progress = [](std::string_view) {};

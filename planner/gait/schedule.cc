@@ -204,7 +204,13 @@ class AttemptRunner {
         (count == 1 ? " candidate planned, it does not execute in simulation; it "
                     : " candidates planned, none executes in simulation; the best ") +
         FailureText(*farthest->execution, farthest->steps);
-    return {{std::nullopt, std::move(text)}, farthest->execution};
+    SimulatedGait best{{std::nullopt, std::move(text)}, farthest->execution};
+    if (request_.measure_force) {
+      const int entry = best.execution->is_held ? best.execution->steps + 1 : 0;
+      best.execution->force =
+          request_.measure_force(PlanOf(*farthest->found.gait, request_, contacts_), entry);
+    }
+    return best;
   }
 
  private:
@@ -420,11 +426,13 @@ bool MultiStartSearch::DrawTracks() {
   if (request_.start_pose) {
     for (const PoseTrack& track : task_.Tracks(*request_.start_pose)) {
       tracks_.insert(tracks_.end(), terms_.size(), track);
+      drawn_tracks_.push_back(track);
     }
   } else {
     const SearchTerms& first = terms_.front();
     for (const auto& pose : FindInitialPoses(first.setup, task_, ends_, first.memory, random_)) {
       tracks_.push_back(task_.From(pose));
+      drawn_tracks_.push_back(tracks_.back());
     }
   }
   std::ranges::reverse(tracks_);

@@ -42,6 +42,8 @@ class MultiStartSearch {
 
   /// Return the counts of each initial pose.
   [[nodiscard]] std::vector<GaitCounts> counts() const;
+  /// Return the tracks from all initial poses that were drawn.
+  [[nodiscard]] const std::vector<PoseTrack>& drawn_tracks() const { return drawn_tracks_; }
 
  private:
   struct Start {
@@ -70,6 +72,7 @@ class MultiStartSearch {
   RandomStream random_;
   ObjectTask task_;
   std::vector<PoseTrack> tracks_;  ///< unused tracks from initial poses, best last
+  std::vector<PoseTrack> drawn_tracks_;
   int drawings_ = 0;
   std::size_t opened_ = 0;  ///< number of used poses
   std::vector<std::unique_ptr<Start>> starts_;

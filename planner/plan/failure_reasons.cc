@@ -322,6 +322,68 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .causes = "The values that the report contains were examined.",
      .remedies = "Run `validate --disturbance limits`, which reports the direction in which the "
                  "grasp is weak."},
+    {.name = "too-heavy",
+     .check = kCause,
+     .meaning = "`plan --hand`: in the failed step of the best candidate, the grasp requires a "
+                "larger grasp force to support the weight than the actuators exert. The message "
+                "states the required force, the weight and the available force.",
+     .causes = "The object is heavy for the actuators of the hand.\nThe friction is low.",
+     .remedies = "Use a smaller object (--scale).\nUse more friction (--mu)."},
+    {.name = "too-thick",
+     .check = kCause,
+     .meaning =
+         "`plan --hand`: no grasp is found, and the smallest width of the object exceeds the "
+         "largest distance between two fingertips that face each other. The message states "
+         "both.",
+     .causes = "The unit of length is wrong.\nThe object is too large for the hand.",
+     .remedies = "Check --scale.\nUse a smaller object or a larger hand."},
+    {.name = "too-thin",
+     .check = kCause,
+     .meaning = "`plan --hand`: two fingertips come no closer than the diameter of the object. Or "
+                "fingers collide in at least 9 of 10 grasps, and the object is thinner than a "
+                "fingertip. The message states the lengths and the counts.",
+     .causes = "The unit of length is wrong.\nThe fingertips are thick for the object.",
+     .remedies = "Check --scale.\nUse a larger object or a hand with thinner fingertips."},
+    {.name = "out-of-reach",
+     .check = kCause,
+     .meaning = "`plan --hand`: from each initial pose, fewer than three fingers reach the object "
+                "somewhere on the path. The message states the place, the number of fingers and "
+                "the distance of the next finger from its nearest contact.",
+     .causes = "The start pose or the goal is too far from the fingers.\n"
+               "Joint limits prevent the contact.",
+     .remedies = "Choose a start pose and a goal nearer to the fingers (--start-pose).\n"
+                 "Omit --start-pose."},
+    {.name = "finger-always-required",
+     .check = kCause,
+     .meaning = "`plan --hand`: a finger takes part in every grasp that the search evaluated. It "
+                "never changes its contact, which limits the rotation. The message states the "
+                "fingers and the number of grasps.",
+     .causes = "Only this finger, usually the thumb, opposes the others.",
+     .remedies = "Rotate the object by a smaller angle.\n"
+                 "Permit grasps that hold the object by its weight (--closure gravity).\n"
+                 "Let gravity act in another direction (--gravity)."},
+    {.name = "contacts-roll-off",
+     .check = kCause,
+     .meaning = "`plan --hand`: at least half of the grasps are lost when their fingertips roll. "
+                "Or fingertips leave their contacts in at least half of the failed simulations. Or "
+                "contacts of the gaits that were found cannot roll. The message states the counts.",
+     .causes = "The faces of the object are small for the rolling fingertips.\n"
+               "The object rotates far relative to the fingers.",
+     .remedies = "Plan with rolling contacts (--rolling on).\nUse more friction (--mu)."},
+    {.name = "time-limit",
+     .check = kCause,
+     .meaning = "`plan --hand`: the time limit passed before the search ended. The message states "
+                "the number of expanded stances and the share of the path that was reached.",
+     .causes = "The task requires many contact changes.\nThe machine is busy.",
+     .remedies = "Use a longer --time-limit.\nUse more --jobs."},
+    {.name = "search-budget",
+     .check = kCause,
+     .meaning = "`plan --hand`: the search ended without a plan, and no other cause applies. The "
+                "message states the number of expanded stances and the share of the path that was "
+                "reached.",
+     .causes = "The hand cannot perform the task.\nThe search budget is too small.",
+     .remedies = "Use another --seed.\nUse a larger budget (--planner budget=N).\n"
+                 "Run `plan --explain`, which searches for a change that helps."},
 });
 
 /// Return the items of a text with one per line as a Markdown list.

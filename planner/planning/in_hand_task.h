@@ -46,6 +46,13 @@ struct RobustnessRating {
   [[nodiscard]] int passed() const { return conditions - static_cast<int>(failed.size()); }
 };
 
+/// Grasp force of a static grasp, which is the sum of its normal forces, newtons.
+struct GraspForceNeed {
+  double weight = 0;     ///< weight of the object
+  double required = 0;   ///< least force that supports the weight with a force margin
+  double available = 0;  ///< largest force within the permitted share of the actuators' limits
+};
+
 /// How far a hand executes a plan in simulation.
 struct ExecutionResult {
   bool is_held = false;   ///< whether the start grasp is held before the first step
@@ -57,6 +64,7 @@ struct ExecutionResult {
   plan::Reason reason = {};   ///< reason of the failed step; the first reason (none) if none failed
   std::string detail = {};    ///< description of the failure: finger or link, and by how much
   std::optional<RobustnessRating> rating = {};  ///< of a whole execution, if it was rated
+  std::optional<GraspForceNeed> force = {};     ///< of the failed step, if it was measured
 };
 
 /// An object task for a hand, in addition to start and goal grasp: rotate the object, or move it to
@@ -103,6 +111,10 @@ struct InHandTask {
   std::function<std::optional<RobustnessRating>(const plan::Plan&, int most_failures,
                                                 const Deadline&)>
       rate = {};
+  /// Measures the grasp force of the static grasp after a number of steps of a plan
+  /// (sim/actuation/simulate_execution.h). Called for the best candidate if none executes. Empty:
+  /// forces are not measured.
+  std::function<std::optional<GraspForceNeed>(const plan::Plan&, int steps)> measure_force = {};
 };
 
 }  // namespace regrasp::planning

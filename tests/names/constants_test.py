@@ -9,9 +9,9 @@ import sys
 import unittest
 
 SOURCE = pathlib.Path(sys.argv[1])
-# Sentinels, texts and the layout of seeds are no parameters of the method.
-NO_PARAMETERS = {"kFewestGrasps", "kNone", "kNoNode", "kRating", "kRollingShift", "kSimulating",
-                 "kStreamShift"}
+# Sentinels, texts, the layout of seeds and the measurements of failure causes are no parameters of the method.
+NO_PARAMETERS = {"kFewestGrasps", "kGripSamples", "kMostlyColliding", "kMostlyLost", "kNone", "kNoNode", "kRating",
+                 "kReachSteps", "kRollingShift", "kSimulating", "kStreamShift", "kWidthDirections"}
 
 
 def defined(text):

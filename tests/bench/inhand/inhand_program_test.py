@@ -55,7 +55,7 @@ class InHand(ProgramCase):
     def test_bodies_are_files_for_other_planners(self):
         listed = self.assert_done("--list", "--bodies", self.path("bodies")).stdout
         self.assertIn("turn/cube-50/z90\n", listed)
-        for name in ("cube.obj", "banana.obj", "cylinder-60.obj"):
+        for name in ("cube.obj", "banana.obj", "cylinder-60.obj", "screwdriver.obj"):
             self.assertIn(name + " times ", listed)
             self.assertIn(name, os.listdir(self.path("bodies")))
 

@@ -50,6 +50,37 @@ TEST(InHandTasks, TurnEachOfTenBodiesAboutThreeAxesByTwoAngles) {
   }
 }
 
+/// Results files, tables and other planners refer to these names, in this order.
+TEST(InHandTasks, TurnEverydayBodiesInAFixedOrder) {
+  std::vector<std::string> names;
+  for (const Task& task : ReadTasks(TasksFile())) {
+    if (task.group != "everyday") continue;
+    EXPECT_TRUE(task.is_turn());
+    EXPECT_TRUE(task.after.empty());
+    int axis = 0;
+    task.turn.axis.maxCoeff(&axis);
+    const int degrees = static_cast<int>(std::lround(Degrees(task.turn.angle)));
+    EXPECT_EQ(task.name,
+              "everyday/" + task.body + "/" + std::string("xyz")[axis] + std::to_string(degrees));
+    names.push_back(task.name.substr(std::string("everyday/").size()));
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("box/x180", "box/y180", "box/z180", "rod-square/x180",
+                                   "rod-square/z360", "rod-20/x180", "rod-20/z360", "cap/z360",
+                                   "pen/x180", "pen/z360", "screwdriver/x180", "screwdriver/z360"));
+}
+
+TEST(InHandTasks, TurnOnlyBodiesOfTheProgram) {
+  std::set<std::string> bodies;
+  for (const auto& some : {TenBodies(ProjectPath("models")),
+                           CompetitionBodies(ProjectPath("models")), EverydayBodies()}) {
+    for (const HandBody& body : some) bodies.insert(body.name);
+  }
+  std::set<std::string> used;
+  for (const Task& task : ReadTasks(TasksFile())) used.insert(task.body);
+  EXPECT_EQ(used, bodies);
+}
+
 /// Return the column `what` of each task, without its first word: "facet +y up", "waypoint 0 20 0".
 std::map<std::string, std::string> WhatOfTasks() {
   const CsvTable table = CsvTable::Parse(ReadFile(TasksFile()), "tasks.csv");
@@ -139,7 +170,7 @@ TEST_F(TaskFiles, AreRefusedWithTheLineAndTheValue) {
 
 TEST(ChainsOf, TakesWholeChainsOfWhichATaskMatches) {
   const std::vector<Task> tasks = ReadTasks(TasksFile());
-  EXPECT_EQ(ChainsOf(tasks, {}).size(), 60U + 2 + 3);
+  EXPECT_EQ(ChainsOf(tasks, {}).size(), 60U + 2 + 3 + 12);
   const auto chains = ChainsOf(tasks, {"rgmc/cube-50/3"});
   ASSERT_EQ(chains.size(), 1U);
   EXPECT_EQ(chains.front().size(), 5U);

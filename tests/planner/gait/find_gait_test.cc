@@ -489,23 +489,5 @@ TEST(FindGaitTest, ObjectsWithSmallTrianglesHaveContacts) {
   }
 }
 
-TEST(FindGaitTest, AFailureNamesFingersThatNeverChangeTheirContact) {
-  kinematics::HandModel stiff = Ring();
-  stiff.fingers[0].upper =
-      stiff.fingers[0].lower + Eigen::VectorXd::Constant(stiff.fingers[0].drives, 1e-3);
-  for (const kinematics::HandModel* hand :
-       {&Ring(), static_cast<const kinematics::HandModel*>(&stiff)}) {
-    GaitRequest request = RequestFor("cube", 0.8, 270);
-    request.hand = hand;
-    request.robustness = RobustnessLevel::kNone;
-    request.most_expanded = 3;
-    const GaitResult found = FindGait(request);
-    ASSERT_FALSE(found.gait);
-    const bool names =
-        found.message.find("held by finger1 and finger2 and finger3") != std::string::npos;
-    EXPECT_EQ(names, hand == &stiff) << found.message;
-  }
-}
-
 }  // namespace find_gait_test
 }  // namespace regrasp::gait
