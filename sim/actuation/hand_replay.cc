@@ -289,6 +289,20 @@ ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedr
   return result;
 }
 
+std::optional<planning::GraspForceNeed> MeasureGraspForce(const kinematics::HandFile& file,
+                                                          const object::Polyhedron& solid,
+                                                          const plan::Plan& plan,
+                                                          const HandReplayOptions& given,
+                                                          int steps) {
+  CheckGravity(file.hand, plan);
+  const HandReplayOptions options = WithMass(given, solid, plan.scale);
+  const std::unique_ptr<HandEngine> world =
+      MakeEngine(file, solid, plan.scale, options, plan.friction_angle);
+  const plan::EntryIndex entry(std::min(steps, static_cast<int>(plan.steps.size())));
+  return ComputeGraspForceNeed(*world, solid, plan, entry, plan.friction_angle,
+                               *options.mass_kg * kGravity);
+}
+
 struct HandReplays::Impl {
   /// A static grasp that a plan reached, and its successors.
   struct Come {

@@ -9,6 +9,7 @@
 #include "planner/kinematics/hand_file.h"
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "planner/planning/in_hand_task.h"
 #include "sim/replay/replay.h"
 #include "sim/replay/trials.h"
 #include "sim/scene/settings.h"
@@ -56,6 +57,15 @@ struct HandReplayOptions : ReplayConditions {
                                       const object::Polyhedron& solid, const plan::Plan& plan,
                                       const HandReplayOptions& options,
                                       const ReplayObserver& observer = {}, int steps = -1);
+
+/// Return the grasp force that the static grasp after a number of steps requires, and the one that
+/// the actuators exert (ComputeGraspForceNeed).
+/// @param plan   as in ReplayHand.
+/// @param steps  number of steps; limited to those of the plan.
+/// @throws InputError  if the hand's model cannot be simulated.
+[[nodiscard]] std::optional<planning::GraspForceNeed> MeasureGraspForce(
+    const kinematics::HandFile& file, const object::Polyhedron& solid, const plan::Plan& plan,
+    const HandReplayOptions& options, int steps);
 
 /// Replays plans one after another, each from the first step that differs from earlier plans.
 class HandReplays {

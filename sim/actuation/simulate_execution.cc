@@ -180,4 +180,17 @@ ExecutionRater(kinematics::HandFile file, const object::Polyhedron& solid) {
   };
 }
 
+std::function<std::optional<planning::GraspForceNeed>(const plan::Plan&, int)> GraspForceMeter(
+    kinematics::HandFile file, const object::Polyhedron& solid) {
+  return [file = std::move(file), &solid](const plan::Plan& plan,
+                                          int steps) -> std::optional<planning::GraspForceNeed> {
+    try {
+      return MeasureGraspForce(kinematics::HandOfPlan(file, plan), solid,
+                               plan::ProjectPlan(solid, plan), {}, steps);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  };
+}
+
 }  // namespace regrasp::sim

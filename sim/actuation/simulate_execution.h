@@ -42,4 +42,11 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
     const plan::Plan&, int most_failures, const Deadline&)>
 ExecutionRater(kinematics::HandFile file, const object::Polyhedron& solid);
 
+/// Return a function that measures grasp forces for planners (planning::InHandTask::measure_force).
+/// It calls MeasureGraspForce for an object with the density of water.
+/// @param solid  object; must outlive the function.
+/// @returns a function that returns nullopt if the hand's model cannot be simulated.
+[[nodiscard]] std::function<std::optional<planning::GraspForceNeed>(const plan::Plan&, int steps)>
+GraspForceMeter(kinematics::HandFile file, const object::Polyhedron& solid);
+
 }  // namespace regrasp::sim

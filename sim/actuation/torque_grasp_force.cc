@@ -13,6 +13,8 @@ namespace {
 
 /// Number of bisections between a grasp force that is too large and one that is not.
 constexpr int kHalvings = 10;
+/// Largest measured grasp force, weights.
+constexpr double kMostMeasured = 20;
 
 struct PlannedRest {
   plan::HandState state;
@@ -137,6 +139,25 @@ double StaticGraspForce(HandEngine& world, const object::Polyhedron& solid, doub
     return held.ForcesAt(grasp_force).margin < kLeastMargin;
   });
   return std::max(stable, required);
+}
+
+std::optional<planning::GraspForceNeed> ComputeGraspForceNeed(
+    HandEngine& world, const object::Polyhedron& solid, const plan::Plan& plan,
+    plan::EntryIndex entry, double friction_angle, double weight) {
+  const PlannedRest rest = RestsOf(plan, int{entry} + 1).back();
+  const HeldGrasp held(world, solid, plan.scale, rest.state, rest.grasp, friction_angle, weight,
+                       plan.hand->gravity_support.has_value());
+  const double most = kMostMeasured * weight;
+  const auto supports = [&](double grasp_force) {
+    const grasp::GraspForces forces = held.ForcesAt(grasp_force);
+    return forces.balanced && forces.margin >= kLeastMargin;
+  };
+  if (!supports(most)) return std::nullopt;
+  return planning::GraspForceNeed{
+      .weight = weight,
+      .required = LargestForce(most, [&](double grasp_force) { return !supports(grasp_force); }),
+      .available = LargestForce(
+          most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; })};
 }
 
 std::vector<double> ComputeGraspForcesOfPlan(HandEngine& world, const object::Polyhedron& solid,

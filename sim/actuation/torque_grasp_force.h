@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/object/polyhedron.h"
 #include "planner/plan/plan.h"
+#include "planner/planning/in_hand_task.h"
 #include "sim/actuation/hand_engine.h"
 
 namespace regrasp::sim {
@@ -37,6 +39,17 @@ namespace regrasp::sim {
 /// Return the largest grasp force of any static grasp, newtons.
 /// It is kMostWeights times the weight and at least kEnough.
 [[nodiscard]] double LargestGraspForce(double weight);
+
+/// Return the grasp force that the static grasp after an entry of a plan requires, and the one that
+/// the actuators exert.
+/// The required force is the least one at which the grasp supports the weight with a force margin
+/// of kLeastMargin. The available force is the largest one at which no actuator needs more than
+/// kTorqueShare of its limit. Both are accurate to 2 % of the weight, and at most 20 weights.
+/// @param world  world of hand and object; its state changes to the static grasp.
+/// @returns nullopt if no such grasp force supports the weight.
+[[nodiscard]] std::optional<planning::GraspForceNeed> ComputeGraspForceNeed(
+    HandEngine& world, const object::Polyhedron& solid, const plan::Plan& plan,
+    plan::EntryIndex entry, double friction_angle, double weight);
 
 inline constexpr double kTorqueShare = 0.4;
 inline constexpr double kStableShare = 0.5;

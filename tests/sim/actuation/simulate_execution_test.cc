@@ -17,6 +17,7 @@
 #include "planner/plan/projection.h"
 #include "planner/plan/reason.h"
 #include "sim/actuation/condition_replays.h"
+#include "sim/scene/scaling.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/models.h"
 #include "tests/fixtures/plan_with.h"
@@ -216,6 +217,31 @@ TEST_F(ExecutionSimulatorTest, OfAHandWithoutActuatorsItCanNotTell) {
   const planning::PlanResult found = planning::Solve(planner_, request);
   ASSERT_TRUE(found.plan) << found.message;
   EXPECT_FALSE(ExecutionSimulator(kinematics::ReadHandFile(path), cube_)(*found.plan, {}));
+}
+
+/// At a friction of 0.8 the contacts carry at most √(1 + 0.8²) times their normal forces.
+TEST_F(ExecutionSimulatorTest, GraspForcesSupportTheWeightAndAHeavyCubeRequiresTooMuch) {
+  const planning::PlanResult found = planning::Solve(planner_, Turning(90));
+  ASSERT_TRUE(found.plan) << found.message;
+  const int steps = static_cast<int>(found.plan->steps.size());
+  const auto measure = GraspForceMeter(hand_, cube_);
+  const plan::Plan projected = plan::ProjectPlan(cube_, *found.plan);
+  for (const int step : {0, steps}) {
+    const auto light = measure(*found.plan, step);
+    ASSERT_TRUE(light);
+    EXPECT_NEAR(light->weight, 0.05 * 0.05 * 0.05 * 1000 * kGravity, 0.01);
+    EXPECT_GE(light->required, light->weight / std::hypot(1, 0.8));
+    EXPECT_GT(light->available, light->required);
+    HandReplayOptions heavy;
+    heavy.mass_kg = 20;
+    const auto needed = MeasureGraspForce(hand_, cube_, projected, heavy, step);
+    ASSERT_TRUE(needed);
+    EXPECT_NEAR(needed->weight, 20 * kGravity, 1e-9);
+    EXPECT_LT(needed->available, needed->required);
+    // The required force is proportional to the weight.
+    EXPECT_NEAR(needed->required / needed->weight, light->required / light->weight, 0.04);
+  }
+  EXPECT_EQ(measure(*found.plan, steps + 1)->required, measure(*found.plan, steps)->required);
 }
 
 }  // namespace simulate_execution_test
