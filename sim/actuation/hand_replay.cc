@@ -295,7 +295,7 @@ std::optional<planning::GraspForceNeed> MeasureGraspForce(const kinematics::Hand
                                                           const HandReplayOptions& given,
                                                           int steps) {
   CheckGravity(file.hand, plan);
-  const HandReplayOptions options = WithMass(given, solid, plan.scale);
+  const HandReplayOptions options = WithMass(given, solid, plan);
   const std::unique_ptr<HandEngine> world =
       MakeEngine(file, solid, plan.scale, options, plan.friction_angle);
   const plan::EntryIndex entry(std::min(steps, static_cast<int>(plan.steps.size())));
