@@ -174,6 +174,7 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
   task.simulate = sim::ExecutionSimulator(*hand_file, solid,
                                           sim::PlanningConditions(hand.robustness.conditions));
   task.rate = sim::ExecutionRater(*hand_file, solid);
+  task.measure_force = sim::GraspForceMeter(*hand_file, solid);
   hand.AskFor(task);
   const auto set_contacts = [&](const plan::HandEnd& state, PlanEnd& end) {
     end.text = plan::FormatGrasp(plan::ContactsOf(state.grasp), object.object->dimension());

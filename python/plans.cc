@@ -106,7 +106,8 @@ planning::InHandTask TaskOf(const PythonObject& object, const PythonHand& hand,
               hand.file, solid,
               sim::PlanningConditions(given.is_standard ? sim::PlanningRobustness::kStandard
                                                         : sim::PlanningRobustness::kNominal)),
-          .rate = sim::ExecutionRater(hand.file, solid)};
+          .rate = sim::ExecutionRater(hand.file, solid),
+          .measure_force = sim::GraspForceMeter(hand.file, solid)};
 }
 
 /// Let a task start and end at hand grasps, if there are any.

@@ -53,6 +53,7 @@ std::vector<planning::InHandTask> InHandTasksOf(const kinematics::HandFile& hand
       .hand = &hand.hand, .scale = body.scale, .robustness = planning::RobustnessLevel::kRequired};
   in_hand.simulate = sim::ExecutionSimulator(
       hand, body.solid(), sim::PlanningConditions(sim::PlanningRobustness::kNominal));
+  in_hand.measure_force = sim::GraspForceMeter(hand, body.solid());
   if (start) {
     in_hand.start_pose = start->pose;
     for (const plan::FingerContact& held : start->holding) {
