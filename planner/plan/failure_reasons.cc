@@ -328,7 +328,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "larger grasp force to support the weight than the actuators exert. The message "
                 "states the required force, the weight and the available force.",
      .causes = "The object is heavy for the actuators of the hand.\nThe friction is low.",
-     .remedies = "Use a smaller object (--scale).\nUse more friction (--mu)."},
+     .remedies = "Use a smaller or lighter object (--scale, --mass).\nUse more friction (--mu)."},
     {.name = "too-thick",
      .check = kCause,
      .meaning =
@@ -382,7 +382,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
                 "message states the number of expanded stances and the share of the path that was "
                 "reached.",
      .causes = "The hand cannot perform the task.\nThe search budget is too small.",
-     .remedies = "Use another --seed.\nUse a larger budget (--planner budget=N).\n"
+     .remedies = "Use another --seed.\nUse a larger budget (--planner gait,budget=N).\n"
                  "Run `plan --explain`, which searches for a change that helps."},
 });
 
