@@ -194,7 +194,7 @@ class HandsTest(RegraspCase):
         plan("goals", "cannot be used with turn", goals=[], turn=("z", 9))
         plan("hand", "str", "Hand.read", hand="ring4.json", turn=("z", 90))
         plan("gear128.wkt", "polygon", object=gear, turn=("z", 90))
-        plan("mass", "greater than 0", turn=("z", 9), mass=0)
+        plan("mass", "above 0", turn=("z", 9), mass=0)
         plan("turn", "axis and degrees", turn="z90 now")
         plan("turn[0]", "'w'", turn=("w", 90))
         plan("turn[1]", "must not be 0", turn=("z", 0))
