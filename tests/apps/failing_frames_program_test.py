@@ -34,7 +34,7 @@ class FailingFrames(ProgramCase):
     def assert_frame_of_failure(self, index, reason, *more, finger=True):
         """Expect a frame of the failed step, with red if a finger is at fault.
 
-        The overview image must have a grey cell for each later step.
+        Later steps have no frames.
         """
         done = self.run_program(*self.arguments(*more))
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -70,17 +70,17 @@ class FailingFrames(ProgramCase):
         sheet = png_pixels(self.read("result/overview.png"))
         self.assertEqual(count(sheet, lambda pixel: pixel == EMPTY_CELL), 0)
 
-    def test_the_sheet_has_a_grey_cell_for_each_step_that_was_not_replayed(self):
+    def test_the_sheet_has_one_grey_cell_for_all_steps_that_were_not_replayed(self):
         contact = self.plan["steps"][0]["place"][0]
         contact["point"] = [p - 0.004 * n for p, n in zip(contact["point"], contact["normal"])]
         steps, _ = self.assert_frame_of_failure(1, "off-surface")
         sheet = png_pixels(self.read("result/overview.png"))
-        columns = 3
+        columns = 2
         self.assertEqual(len(steps), 5)
         cell = (len(sheet[0]) / columns) ** 2 * SIZE[1] / SIZE[0]
         grey = count(sheet, lambda pixel: pixel == EMPTY_CELL) / cell
-        self.assertGreater(grey, 0.8 * 3)
-        self.assertLess(grey, 3)
+        self.assertGreater(grey, 0.8)
+        self.assertLess(grey, 1)
 
     def test_a_contact_off_the_surface_near_or_far(self):
         place = copy.deepcopy(self.plan["steps"][1]["place"][0])
