@@ -243,7 +243,7 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         friction_angle_deg: friction angle, degrees.
         torsion: torsional friction length of soft fingers, in the object's unit. 0 means hard fingers;
             the default is that of the plan.
-        mass: mass of the object, kg; default: that of water.
+        mass: mass of the object, kg; default: that of the plan, otherwise that of water.
         squeeze: grasp force (sum of normal forces), N; default: ten times what the disturbance needs.
         shake: disturbance force as a share of the grasp force.
         tolerance: allowed displacement and slip as a share of the object's diameter.
