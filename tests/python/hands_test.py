@@ -208,7 +208,6 @@ class HandsTest(RegraspCase):
         plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
         plan("gravity", "zero", gravity=[0, 0, 0], turn=("z", 9))
         plan("gravity", "'any'", gravity="up", turn=("z", 9))
-        plan("gravity", "goals", gravity="any", goals=[])
         plan("closure", "'gravity'", closure="form", turn=("z", 9))
         plan("optimize", "'margin'", optimize="travel", turn=("z", 9))
         plan("clearance", "0.05", clearance=1, turn=("z", 9))
