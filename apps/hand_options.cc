@@ -348,7 +348,6 @@ void HandOptions::AskFor(planning::InHandTask& task) const {
     up = ParseGravity(gravity);
     task.ups = {up};
   }
-  task.mass_kg = mass_kg;
   if (gravity_support) task.gravity_support.emplace();
   task.rolls = rolls;
   if (!goal_facing.empty()) task.goal = ParseFacing(goal_facing, up);

@@ -104,14 +104,15 @@ std::string BoxText(const object::Polyhedron& solid, double scale) {
 void PrintSize(const PlanProgram& program, const object::ObjectFile& object,
                object::BodyMeasures body) {
   const PlannerOptions& common = program.common;
-  body.mass_kg = program.hand.mass_kg.value_or(body.mass_kg);
+  const std::optional<double> mass_kg = program.MassInSimulation();
+  body.mass_kg = mass_kg.value_or(body.mass_kg);
   const std::string warning = object::SizeWarning(body, common.scale);
   if (!warning.empty()) PrintMessage(kPlanName, "warning: " + warning);
   const auto* solid = dynamic_cast<const object::Polyhedron*>(object.object.get());
   if (common.quiet || solid == nullptr) return;
   PrintMessage(kPlanName, object.file + ": " + BoxText(*solid, common.scale) + ", " +
                               object::MeasuresText(body) +
-                              (program.hand.mass_kg ? "" : " at the density of water") +
+                              (mass_kg ? "" : " at the density of water") +
                               object::UnitText(object.unit));
 }
 

@@ -167,6 +167,11 @@ plan::HandEnd PlanProgram::StateOf(const NamedHandGrasp& given, const object::Ob
                                given.name);
 }
 
+std::optional<double> PlanProgram::MassInSimulation() const {
+  if (hand.mass_kg || !continued) return hand.mass_kg;
+  return continued->hand->mass_kg;
+}
+
 planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, PlanEnd& from,
                                           PlanEnd& to) const {
   planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
@@ -176,6 +181,7 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
   task.rate = sim::ExecutionRater(*hand_file, solid);
   task.measure_force = sim::GraspForceMeter(*hand_file, solid);
   hand.AskFor(task);
+  task.mass_kg = MassInSimulation();
   const auto set_contacts = [&](const plan::HandEnd& state, PlanEnd& end) {
     end.text = plan::FormatGrasp(plan::ContactsOf(state.grasp), object.object->dimension());
     end.name = end.hand_grasp->name;
@@ -185,7 +191,6 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
     CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
     begin = plan::EndOfPlan(*continued);
     if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
-    if (!task.mass_kg) task.mass_kg = continued->hand->mass_kg;
   } else if (from.hand_grasp) {
     begin = StateOf(*from.hand_grasp, object, task.margin);
     set_contacts(*begin, from);

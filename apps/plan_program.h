@@ -90,6 +90,9 @@ struct PlanProgram {
   /// Read the hand's file, if there is one.
   /// @throws InputError  if it is not valid.
   void ReadHand();
+  /// Return the mass of the object in simulation, kg: that of --mass, otherwise that of the plan of
+  /// --continue. nullopt: that of the density of water.
+  [[nodiscard]] std::optional<double> MassInSimulation() const;
   /// Plan once, and complete a found plan for writing.
   /// @throws InputError  if object and options are inconsistent.
   [[nodiscard]] FinishedPlan Plan(const object::ObjectFile& object, const GivenPoints& given) const;

@@ -55,8 +55,8 @@ struct GripRange {
 /// | name | condition |
 /// | --- | --- |
 /// | too-heavy | the failed grasp requires a larger grasp force than the actuators exert |
-/// | too-thick | there is no grasp, and the object is wider than the largest grip |
-/// | too-thin | there is no grasp, and the object's diameter is below the smallest grip; or fingers
+/// | too-thick | no grasp is found, and the object is wider than the largest grip |
+/// | too-thin | no grasp is found, and the object's diameter is below the smallest grip; or fingers
 ///   collide in 9 of 10 grasps, and the object is thinner than a fingertip |
 /// | out-of-reach | in each initial pose fewer than three fingers reach the object somewhere on the
 ///   path |

@@ -215,7 +215,8 @@ class Drawing {
     const double y = Y(plot_.limit->value);
     svg.Add(Line("limit", kLeft, y, kWidth - kRight, y));
     if (plot_.limit->label.empty()) return;
-    // The label is above the line, where a passing plan has no values, unless there is no space.
+    // The label is above the line, because values of a passing plan are below it, unless it does
+    // not fit.
     const double above = y - kHalfFont, below = y + 3 * kHalfFont;
     const double text = above - 2 * kHalfFont < kTop ? below : above;
     svg.Add(

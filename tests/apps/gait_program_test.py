@@ -335,7 +335,10 @@ class Gait(ProgramCase):
         self.assertNotIn("mass_kg", json.loads(self.read("water.json"))["hand"])
         self.assert_done(*self.turn(ring5, 45), "--mass", "0.04", "--output", "light.json", program="plan")
         self.assertEqual(json.loads(self.read("light.json"))["hand"]["mass_kg"], 0.04)
-        self.assert_done(*self.turn(ring5, 15), "--continue", "light.json", "--output", "more.json", program="plan")
+        done = self.run_program(*self.turn(ring5, 15), "--continue", "light.json", "--output", "more.json", program="plan")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("40 g", done.stderr)
+        self.assertNotIn("density of water", done.stderr)
         self.assertEqual(json.loads(self.read("more.json"))["hand"]["mass_kg"], 0.04)
         for plan, options, mass in (("light.json", (), 0.04), ("light.json", ("--mass", "0.05"), 0.05),
                                     ("light.json", ("--density", "1000"), 0.110592), ("water.json", (), 0.110592),
