@@ -11,6 +11,7 @@
 #include "planner/base/number.h"
 #include "planner/base/random.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/object/body_measures.h"
 #include "planner/plan/reason.h"
 
 namespace regrasp::gait {
@@ -20,8 +21,6 @@ using Eigen::Vector3d;
 
 /// Sampled configurations of a finger, in addition to the combinations of its joint limits.
 constexpr int kGripSamples = 200;
-/// Directions in which the width of a solid is measured, in addition to normals of its faces.
-constexpr int kWidthDirections = 200;
 /// Steps of a track at which reach is tested.
 constexpr int kReachSteps = 5;
 /// Fewest evaluated grasps from which counts are conclusive.
@@ -78,7 +77,7 @@ double LargestTipDiameter(const kinematics::HandModel& hand) {
 std::optional<FailureCause> TooThickOrThin(const GaitRequest& request,
                                            const SearchEvidence& evidence) {
   const GaitCounts& counts = evidence.counts;
-  const double width = MeasureWidth(*request.solid, request.scale);
+  const double width = request.scale * object::MeasureWidth(*request.solid);
   if (counts.evaluated == 0) {
     const GripRange grip = MeasureGripRange(*request.hand);
     if (width > grip.largest) {
@@ -255,28 +254,6 @@ GripRange MeasureGripRange(const kinematics::HandModel& hand) {
     }
   }
   return range;
-}
-
-double MeasureWidth(const object::Polyhedron& solid, double scale) {
-  double width = std::numeric_limits<double>::infinity();
-  const auto measure = [&](const Vector3d& direction) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const Vector3d& vertex : solid.vertices()) {
-      least = std::min(least, vertex.dot(direction));
-      most = std::max(most, vertex.dot(direction));
-    }
-    width = std::min(width, most - least);
-  };
-  for (FaceIndex face{0}; face < solid.face_count(); ++face) measure(solid.inward_normal(face));
-  // Points of a Fibonacci lattice on the sphere.
-  for (int k = 0; k < kWidthDirections; ++k) {
-    const double z = 1 - (2 * k + 1.0) / kWidthDirections;
-    const double turn = k * std::numbers::pi * (3 - std::sqrt(5.0));
-    const double r = std::sqrt(1 - z * z);
-    measure({r * std::cos(turn), r * std::sin(turn), z});
-  }
-  return scale * width;
 }
 
 std::vector<FailureCause> LikelyCauses(const HandSetup& setup, const GaitRequest& request,

@@ -44,12 +44,6 @@ struct GripRange {
 /// limits. Collisions of links are ignored.
 [[nodiscard]] GripRange MeasureGripRange(const kinematics::HandModel& hand);
 
-/// Measure the smallest distance between two parallel planes that enclose a solid, metres.
-/// It tests the normals of all planar faces and further directions, and is therefore an upper
-/// bound.
-/// @param scale  metres per unit of the solid's file.
-[[nodiscard]] double MeasureWidth(const object::Polyhedron& solid, double scale);
-
 /// Return the likely causes of a failed search, with the most specific one first.
 ///
 /// | name | condition |

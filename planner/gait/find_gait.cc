@@ -16,6 +16,7 @@
 #include "planner/gait/rolled_gait.h"
 #include "planner/gait/schedule.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/object/body_measures.h"
 #include "planner/plan/reason.h"
 #include "planner/sampling/surface_sampler.h"
 
@@ -212,24 +213,27 @@ constexpr int kRollingShift = 40;
 
 /// Search configuration for one set of robustness margins, or for none.
 struct SearchConfig {
-  double quality;
+  double quality;  ///< the margin is smaller for slender objects
   HandScene scene;
   HandSetup setup;
   criteria::GraspMemory memory;
   std::optional<plan::WeightCarrier> carrier = {};
   SimulateExecution simulate = {};
 
-  SearchConfig(const GaitRequest& request, const RobustnessMargins* margins,
+  SearchConfig(const GaitRequest& request, const RobustnessMargins* margins, double relative_width,
                const collision::SurfaceTree& surface,
                const std::vector<kinematics::InverseKinematics>& inverse,
                const std::vector<SurfacePoint>& points, const hand::Hand& fingers)
-      : quality(margins == nullptr ? request.criteria.min_quality
-                                   : std::max(request.criteria.min_quality, margins->quality)),
+      : quality(margins == nullptr
+                    ? request.criteria.min_quality
+                    : std::max(request.criteria.min_quality,
+                               std::min(1.0, relative_width / kSlender) * margins->quality)),
         scene(*request.hand, surface,
               request.margin + (margins == nullptr ? 0 : margins->clearance)),
         setup{scene, inverse, points, request.scale},
         memory(*request.solid, WithQuality(request.criteria, quality), fingers,
                criteria::QualityTest::kQuick) {
+    setup.relative_width = relative_width;
     if (request.gravity_support) {
       plan::GravitySupport support = *request.gravity_support;
       support.disturbance = kSupportFactor * support.disturbance + kSupportMargin;
@@ -331,6 +335,7 @@ GaitResult FindGait(const GaitRequest& request) {
   for (const kinematics::Finger& finger : request.hand->fingers) inverse.emplace_back(finger);
   const collision::BallContact rolled_on(*request.solid, request.scale);
   const hand::Hand fingers = FingersOf(request);
+  const double relative_width = object::MeasureWidth(*request.solid) / request.solid->diameter();
   SearchEvidence evidence;
   std::mutex adding;
   const FindOne find = [&](const GaitRequest& asked,
@@ -338,8 +343,8 @@ GaitResult FindGait(const GaitRequest& request) {
     std::vector<std::unique_ptr<SearchConfig>> configs;
     std::string rejection;
     const auto add = [&](const RobustnessMargins* margins) {
-      auto config =
-          std::make_unique<SearchConfig>(asked, margins, surface, inverse, points, fingers);
+      auto config = std::make_unique<SearchConfig>(asked, margins, relative_width, surface, inverse,
+                                                   points, fingers);
       config->memory.Append(result.contacts);
       if (margins != nullptr) {
         if (margins->force_margin) config->setup.rolled_on = &rolled_on;
@@ -393,7 +398,7 @@ GaitResult FindGait(const GaitRequest& request) {
   result.execution = std::move(simulated.execution);
   if (!result.gait && request.names_causes) {
     if (result.execution) evidence.force = result.execution->force;
-    const SearchConfig config(request, nullptr, surface, inverse, points, fingers);
+    const SearchConfig config(request, nullptr, relative_width, surface, inverse, points, fingers);
     const std::string causes = CausesText(LikelyCauses(config.setup, request, evidence));
     if (!causes.empty()) result.message += "; " + causes;
   }

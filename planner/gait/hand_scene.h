@@ -182,6 +182,13 @@ class ReachMap {
   std::unordered_map<std::size_t, Cached> cache_;
 };
 
+/// Relative width below which an object is slender.
+///
+/// Fingers exert torques about the axis of a slender object at half its width, but the grasp
+/// quality refers torques to its size. The quality margin of an object of relative width w is
+/// therefore multiplied by w / kSlender.
+inline constexpr double kSlender = 0.3;
+
 /// A hand with an object: collision scene, inverse kinematics and candidate contacts.
 struct HandSetup {
   const HandScene& scene;
@@ -198,6 +205,7 @@ struct HandSetup {
   bool may_slide = true;  ///< whether holding fingers may slide
   int fewest_beside_sliding =
       0;  ///< minimum number of stationary holding fingers during a sliding step
+  double relative_width = 1;  ///< width of the object (object::MeasureWidth) divided by diameter
 };
 
 /// Candidate joint configurations of an idle finger [finger][candidate], best first.

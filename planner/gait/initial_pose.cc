@@ -30,6 +30,9 @@ constexpr int kMaxInitialPoses = 24;
 constexpr double kLongTurn = std::numbers::pi;
 /// Largest angle of that axis from the vertical, radians.
 constexpr double kNearVertical = std::numbers::pi / 4;
+/// Turn about any axis, in radians, above which a slender object may also begin on a side.
+/// End over end, it then turns in a horizontal plane instead of through the palm.
+constexpr double kLongSlenderTurn = 1.75;
 constexpr int kSides = 4;  ///< sides on which an object can lie: ±x and ±y up
 /// Offset in the logarithm of the number of reachable contacts.
 /// The logarithm makes all fingers count.
@@ -186,7 +189,9 @@ class PoseDraw {
 
   Isometry3d Next() {
     if (!grasp_.empty()) return WithContactAtFingertip();
-    const bool may_lie = TurnsAboutVertical(task_.turn());
+    const bool may_lie =
+        TurnsAboutVertical(task_.turn()) ||
+        (setup_.relative_width < kSlender && std::abs(task_.turn().angle) > kLongSlenderTurn);
     const int side = may_lie ? static_cast<int>(random_.Index(2 * kSides)) - kSides : -1;
     return PoseOn(side < 0 ? Eigen::Matrix3d::Identity() : OnSide(side));
   }

@@ -21,9 +21,10 @@ namespace regrasp::gait {
 /// Find initial object poses for a task, best first.
 /// A pose is good if many fingers reach many contacts throughout the task, the reachable contacts
 /// form admissible grasps, and the object is clear of the palm. Draws position and yaw of the
-/// upright object. For a turn of more than half a revolution about its vertical, half of the draws
-/// let the object lie on a side. If a start or goal grasp is given, draws orientations freely and
-/// puts one of its contacts at a fingertip.
+/// upright object. For a turn of more than half a revolution about its vertical, and for a turn of
+/// a slender object (kSlender) by more than 100°, half of the draws let the object lie on a side.
+/// If a start or goal grasp is given, draws orientations freely and puts one of its contacts at a
+/// fingertip.
 /// @param memory  contacts of the setup under the same numbers.
 /// @returns at most 24 poses of the object in the palm's frame; empty if none is found.
 [[nodiscard]] std::vector<Eigen::Isometry3d> FindInitialPoses(const HandSetup& setup,

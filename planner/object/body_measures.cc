@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "planner/base/number.h"
@@ -31,6 +33,9 @@ double LargestSquaredByPairs(std::span<const Eigen::Vector3d> points) {
   }
   return largest;
 }
+
+/// Directions in which the width of a solid is measured, in addition to normals of its faces.
+constexpr int kWidthDirections = 200;
 
 /// Relative bound on the rounding of distances.
 constexpr double kSlack = 1e-9;
@@ -104,6 +109,28 @@ constexpr std::array<LengthUnit, 4> kUnits = {
 constexpr double kSmallestGuess = 0.02, kLargestGuess = 0.4;
 
 }  // namespace
+
+double MeasureWidth(const Polyhedron& solid) {
+  double width = std::numeric_limits<double>::infinity();
+  const auto measure = [&](const Eigen::Vector3d& direction) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const Eigen::Vector3d& vertex : solid.vertices()) {
+      least = std::min(least, vertex.dot(direction));
+      most = std::max(most, vertex.dot(direction));
+    }
+    width = std::min(width, most - least);
+  };
+  for (FaceIndex face{0}; face < solid.face_count(); ++face) measure(solid.inward_normal(face));
+  // Points of a Fibonacci lattice on the sphere.
+  for (int k = 0; k < kWidthDirections; ++k) {
+    const double z = 1 - (2 * k + 1.0) / kWidthDirections;
+    const double turn = k * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    measure({r * std::cos(turn), r * std::sin(turn), z});
+  }
+  return width;
+}
 
 BodyMeasures MeasureBody(const Object& object, double scale, double density_kg_m3,
                          std::optional<double> thickness) {

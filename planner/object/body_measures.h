@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner/object/object.h"
+#include "planner/object/polyhedron.h"
 
 namespace regrasp::object {
 
@@ -15,6 +16,13 @@ namespace regrasp::object {
 /// the farthest point, for each point that can be an end of the diameter. Laws: independent of the
 /// order; scales with the points.
 [[nodiscard]] double ComputeDiameter(std::span<const Eigen::Vector3d> points);
+
+/// Measure the smallest distance between two parallel planes that enclose a solid, in its units.
+///
+/// Tests the normals of all planar faces and further directions. The result is therefore an upper
+/// bound, and exact if one of the planes contains a face. Laws: at most the diameter; scales with
+/// the solid.
+[[nodiscard]] double MeasureWidth(const Polyhedron& solid);
 
 /// Size and mass of an object.
 struct BodyMeasures {

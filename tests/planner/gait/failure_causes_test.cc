@@ -54,16 +54,6 @@ TEST(GripRangeTest, OfARingHandBeginsAtZero) {
   EXPECT_LT(range.largest, 0.12 + 2 * kinematics::MaximumReach(Ring().fingers[0]));
 }
 
-TEST(WidthTest, IsThatOfTheNarrowestSide) {
-  EXPECT_NEAR(MeasureWidth(Model("cube"), 0.8), 0.048, 1e-12);
-  EXPECT_NEAR(MeasureWidth(Model("cube"), 8), 0.48, 1e-12);
-  for (const char* model : {"prism", "tetrahedron", "duck500"}) {
-    const object::Polyhedron& solid = Model(model);
-    EXPECT_GT(MeasureWidth(solid, 1), 0) << model;
-    EXPECT_LT(MeasureWidth(solid, 1), solid.diameter()) << model;
-  }
-}
-
 /// Ring hand whose joints have almost no range: its fingers point straight up.
 const kinematics::HandModel& OpenRing() {
   static const kinematics::HandModel hand = [] {

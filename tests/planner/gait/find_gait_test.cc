@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,9 +13,11 @@
 #include "planner/gait/gait_planner.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/request.h"
+#include "planner/grasp/quality.h"
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/check.h"
+#include "tests/fixtures/solids.h"
 #include "tests/planner/gait/gait_requests.h"
 
 namespace regrasp::gait {
@@ -157,6 +160,27 @@ TEST(FindGaitTest, ANonRobustStartGraspIsReported) {
   const GaitResult found = FindGait(request);
   EXPECT_FALSE(found.gait);
   EXPECT_THAT(found.message, testing::HasSubstr("the start grasp has no robustness margin"));
+}
+
+/// Fingers exert little torque about the axis of a rod. At low friction, some of its grasps do not
+/// have the quality that a robust gait requires of a compact object (at least 0.02).
+TEST(FindGaitTest, ARobustGaitRequiresLessQualityOfASlenderObject) {
+  const object::Polyhedron rod = MakeBox({0.012, 0.012, 0.14});
+  GaitRequest request = RequestFor("cube", 1, 60);
+  request.solid = &rod;
+  request.turn.axis = Eigen::Vector3d::UnitX();
+  request.criteria.friction_angle = std::atan(0.2);
+  request.robustness = RobustnessLevel::kRequired;
+  const GaitResult found = FindGait(request);
+  ASSERT_TRUE(found.gait) << found.message;
+  double least = 1;
+  for (std::size_t i = 0; i <= found.gait->segments.size(); ++i) {
+    least = std::min(least, grasp::BoundQuality(GraspBefore(found, i), rod.wrench_frame(),
+                                                request.criteria.friction_angle)
+                                .upper);
+  }
+  EXPECT_GT(least, 0.005);
+  EXPECT_LT(least, 0.02);
 }
 
 TEST_P(TurnTest, EqualRequestsGiveEqualGaits) {

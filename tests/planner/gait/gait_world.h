@@ -10,6 +10,7 @@
 #include "planner/gait/initial_pose.h"
 #include "planner/gait/pose_grid.h"
 #include "planner/gait/request.h"
+#include "planner/object/body_measures.h"
 #include "planner/sampling/surface_sampler.h"
 
 namespace regrasp::gait {
@@ -39,6 +40,7 @@ struct GaitWorld {
       points.push_back({asked.scale * contact.p, contact.n});
     }
     memory.Append(contacts);
+    setup.relative_width = object::MeasureWidth(*request.solid) / request.solid->diameter();
   }
   GaitWorld(const GaitWorld&) = delete;  // members refer to each other
   GaitWorld& operator=(const GaitWorld&) = delete;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "tests/fixtures/solids.h"
 #include "tests/planner/gait/gait_requests.h"
 #include "tests/planner/gait/gait_world.h"
 
@@ -56,9 +57,11 @@ TEST(FindInitialPosesTest, PosesAreUprightClearOfThePalmAndWithinReach) {
 }
 
 /// Count upright poses and poses on a side.
-std::pair<int, int> CountUprightAndLying(double degrees, const Vector3d& axis) {
+std::pair<int, int> CountUprightAndLying(double degrees, const Vector3d& axis,
+                                         const object::Polyhedron& solid = Model("cube")) {
   GaitRequest request = RequestFor("cube", 0.8, degrees);
   request.turn.axis = axis;
+  request.solid = &solid;
   GaitWorld world(request);
   std::pair<int, int> count;
   for (const Isometry3d& pose : PosesOf(world, {})) {
@@ -80,6 +83,15 @@ TEST(FindInitialPosesTest, AFullTurnAboutTheVerticalMayBeginOnASide) {
     EXPECT_GT(count.first, 0);
     EXPECT_EQ(count.second, 0);
   }
+}
+
+TEST(FindInitialPosesTest, ASlenderObjectMayBeginAHalfTurnOnASide) {
+  const object::Polyhedron rod = MakeBox({0.03, 0.03, 0.15});
+  EXPECT_GT(CountUprightAndLying(180, Vector3d::UnitX(), rod).second, 0);
+  // Compact objects, and shorter turns, begin with the upright object.
+  const object::Polyhedron brick = MakeBox({0.03, 0.03, 0.06});
+  EXPECT_EQ(CountUprightAndLying(180, Vector3d::UnitX(), brick).second, 0);
+  EXPECT_EQ(CountUprightAndLying(90, Vector3d::UnitX(), rod).second, 0);
 }
 
 TEST(FindInitialPosesTest, PosesDependOnTheRandomStreamOnly) {

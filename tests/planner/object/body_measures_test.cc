@@ -7,7 +7,9 @@
 #include <tuple>
 
 #include "tests/fixtures/models.h"
+#include "tests/fixtures/moved.h"
 #include "tests/fixtures/project_path.h"
+#include "tests/fixtures/solids.h"
 
 namespace regrasp::object {
 namespace body_measures_test {
@@ -43,6 +45,21 @@ TEST(BodyMeasures, OfAPolygonAreThoseOfAPrism) {
   EXPECT_THAT(MeasuresText(body), HasSubstr(" thick, "));
   EXPECT_NEAR(MeasureBody(*square.object, 1, kUsualDensity, 2 * body.thickness_m).mass_kg,
               2 * body.mass_kg, 1e-12);
+}
+
+TEST(Width, IsThatOfTheNarrowestSideInEveryPose) {
+  const Polyhedron box = MakeBox({0.02, 0.05, 0.12});
+  EXPECT_NEAR(MeasureWidth(box), 0.02, 1e-12);
+  Eigen::Affine3d moved = Eigen::Affine3d::Identity();
+  moved.rotate(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()));
+  moved.pretranslate(Eigen::Vector3d(0.3, 0, -1));
+  EXPECT_NEAR(MeasureWidth(Moved(box, moved)), 0.02, 1e-12);
+  EXPECT_NEAR(MeasureWidth(Moved(box, moved * Eigen::Scaling(3.0))), 0.06, 1e-12);
+  for (const char* model : {"prism.obj", "tetrahedron.obj", "duck500.obj"}) {
+    const Polyhedron solid = ReadSolidModel(model);
+    EXPECT_GT(MeasureWidth(solid), 0) << model;
+    EXPECT_LT(MeasureWidth(solid), solid.diameter()) << model;
+  }
 }
 
 TEST(BodyMeasures, GrowWithTheScaleAndSaySoInOtherUnits) {
