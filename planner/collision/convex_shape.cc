@@ -17,6 +17,32 @@ ConvexShape Moved(const Eigen::Isometry3d& pose, const ConvexShape& shape) {
   return moved;
 }
 
+ConvexShape Enclosing(const ConvexShape& shape, double tolerance) {
+  ConvexShape enclosing;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3d& end = Farthest(shape.points, sign * Vector3d::Unit(axis));
+      if (std::ranges::find(enclosing.points, end) == enclosing.points.end()) {
+        enclosing.points.push_back(end);
+      }
+    }
+  }
+  // Distances from the hull of fewer points, which are upper bounds.
+  std::vector<double> off(shape.points.size(), std::numeric_limits<double>::infinity());
+  while (true) {
+    const auto farthest = std::ranges::max_element(off);
+    const Vector3d& point = shape.points[farthest - off.begin()];
+    const double before = *farthest;
+    *farthest = Distance({{point}, 0}, enclosing).upper;
+    if (*farthest < before && *farthest < std::ranges::max(off)) continue;
+    if (*farthest <= tolerance) break;
+    enclosing.points.push_back(point);
+    *farthest = 0;
+  }
+  enclosing.radius = shape.radius + std::ranges::max(off);
+  return enclosing;
+}
+
 BoundingSphere BoundingSphereOf(const ConvexShape& shape) {
   Vector3d lower = shape.points.front();
   Vector3d upper = lower;

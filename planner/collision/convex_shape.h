@@ -20,6 +20,14 @@ struct ConvexShape {
 /// Return a shape moved by a pose.
 [[nodiscard]] ConvexShape Moved(const Eigen::Isometry3d& pose, const ConvexShape& shape);
 
+/// Return a shape of few points that contains a shape.
+///
+/// Points of the shape are selected until their hull is within `tolerance` of all points, the
+/// farthest one first. The radius grows by the remaining distance, which is at most `tolerance`.
+/// @param shape      shape with at least one point.
+/// @param tolerance  largest growth of the radius, > 0.
+[[nodiscard]] ConvexShape Enclosing(const ConvexShape& shape, double tolerance);
+
 /// Sphere that contains a shape.
 struct BoundingSphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -33,6 +33,27 @@ constexpr double kMaxJump = 0.35;
 /// First stride of the search for the end of a run, steps; a power of two.
 constexpr int kRunStride = 4;
 
+/// Distance by which a shape may reach out of another one that contains it, metres: rounding.
+constexpr double kContained = 1e-9;
+
+/// Return whether a shape is inside another one.
+bool IsInside(const ConvexShape& inner, const ConvexShape& outer) {
+  const ConvexShape core{outer.points, 0};
+  const double left = outer.radius - inner.radius;
+  return left >= 0 && std::ranges::none_of(inner.points, [&](const Eigen::Vector3d& point) {
+           return AreApart({{point}, 0}, core, left + kContained);
+         });
+}
+
+/// Return whether the fingertip shape of a finger contains a covered shape, which then adds
+/// nothing.
+bool IsRedundant(const LinkShape& link, const std::vector<LinkShape>& shapes) {
+  return link.role == LinkShape::Role::kCovered &&
+         std::ranges::any_of(shapes, [&](const LinkShape& other) {
+           return other.role == LinkShape::Role::kTip && IsInside(link.shape, other.shape);
+         });
+}
+
 bool IsContinuous(const JointConfiguration& from, const JointConfiguration& to, int steps) {
   return (to - from).cwiseAbs().maxCoeff() <= steps * kMaxJump;
 }
@@ -45,7 +66,13 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
       surface_(surface),
       margin_(margin),
       object_reach_(surface.ReachFrom(Eigen::Vector3d::Zero())) {
-  for (const LinkShape& link : hand.palm) palm_balls_.push_back(BoundingSphereOf(link.shape));
+  for (const Finger& finger : hand.fingers) {
+    redundant_.emplace_back();
+    for (const LinkShape& link : finger.shapes) {
+      redundant_.back().push_back(IsRedundant(link, finger.shapes));
+    }
+  }
+  for (const LinkShape& link : hand.palm) palm_balls_.push_back(BoundingSphereOf(link.enclosing));
   for (FingerIndex a{0}; a < std::ssize(hand.fingers); ++a) {
     with_palm_.push_back(CheckedPairs(a, {}));
     with_fingers_.emplace_back();
@@ -57,7 +84,7 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
     balls_.emplace_back();
     reach_.emplace_back();
     for (const LinkShape& link : finger.shapes) {
-      balls_.back().push_back(BoundingSphereOf(link.shape));
+      balls_.back().push_back(BoundingSphereOf(link.enclosing));
       reach_.back().push_back(kinematics::LinkReach(finger, link));
     }
   }
@@ -67,10 +94,14 @@ std::vector<HandScene::ShapePair> HandScene::CheckedPairs(FingerIndex a, FingerI
   const auto count = [&](FingerIndex finger) {
     return static_cast<int>((finger.valid() ? hand_.fingers[finger].shapes : hand_.palm).size());
   };
+  const auto adds_nothing = [&](FingerIndex finger, int shape) {
+    return finger.valid() && redundant_[finger][shape];
+  };
   const std::set ignored(hand_.ignored.begin(), hand_.ignored.end());
   std::vector<ShapePair> pairs;
   for (int i = 0; i < count(a); ++i) {
     for (int j = a == b ? i + 1 : 0; j < count(b); ++j) {
+      if (adds_nothing(a, i) || adds_nothing(b, j)) continue;
       if (!ignored.contains(std::minmax(Part{a, i}, Part{b, j}))) pairs.push_back({i, j});
     }
   }
@@ -96,7 +127,7 @@ PlacedFinger HandScene::Place(FingerIndex finger, const JointConfiguration& conf
   for (const LinkShape& link : chain.shapes) {
     const Isometry3d& frame = frames[link.after - 1];
     const BoundingSphere& ball = balls_[finger][placed.shapes.size()];
-    placed.shapes.push_back(collision::Moved(frame, link.shape));
+    placed.shapes.push_back(collision::Moved(frame, link.enclosing));
     placed.balls.push_back({frame * ball.centre, ball.radius});
   }
   return placed;
@@ -107,7 +138,7 @@ bool HandScene::KeepsOffHand(const PlacedFinger& placed, Motion motion) const {
   return std::ranges::all_of(with_palm_[placed.finger],
                              [&](const ShapePair& pair) {
                                return AreApart(placed.shapes[pair.a], placed.balls[pair.a],
-                                               hand_.palm[pair.b].shape, palm_balls_[pair.b],
+                                               hand_.palm[pair.b].enclosing, palm_balls_[pair.b],
                                                needed);
                              }) &&
          KeepApart(placed, placed, motion);
@@ -118,10 +149,14 @@ bool HandScene::KeepsOffObject(const PlacedFinger& placed, const Isometry3d& pos
   const Isometry3d to_object = pose.inverse();
   const std::vector<LinkShape>& shapes = hand_.fingers[placed.finger].shapes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (links != Links::kAll && shapes[i].is_tip != (links == Links::kTip)) continue;
+    // The fingertip sphere is fitted into this geometry, which is therefore inside the object at a
+    // contact.
+    if (shapes[i].role == LinkShape::Role::kCovered) continue;
+    const bool is_tip = shapes[i].role == LinkShape::Role::kTip;
+    if (links != Links::kAll && is_tip != (links == Links::kTip)) continue;
     ConvexShape shape = collision::Moved(to_object, placed.shapes[i]);
     double distance = Needed(motion);
-    if (shapes[i].is_tip && tip == TipContact::kTouching) {
+    if (is_tip && tip == TipContact::kTouching) {
       shape.radius = std::max(0.0, shape.radius - kTipDepth);
       distance = motion.value_or(0);
     }
@@ -133,8 +168,10 @@ bool HandScene::KeepsOffObject(const PlacedFinger& placed, const Isometry3d& pos
 double HandScene::DistanceFromObject(const PlacedFinger& placed, const Isometry3d& pose,
                                      double limit) const {
   const Isometry3d to_object = pose.inverse();
-  for (const ConvexShape& shape : placed.shapes) {
-    limit = std::min(limit, surface_.DistanceFrom(collision::Moved(to_object, shape), limit));
+  for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
+    if (redundant_[placed.finger][i]) continue;
+    const ConvexShape shape = collision::Moved(to_object, placed.shapes[i]);
+    limit = std::min(limit, surface_.DistanceFrom(shape, limit));
   }
   return limit;
 }
@@ -149,7 +186,7 @@ bool HandScene::KeepApart(const PlacedFinger& a, const PlacedFinger& b, Motion m
 bool HandScene::KeepsOffPalm(const Isometry3d& pose, Motion motion) const {
   const Isometry3d to_object = pose.inverse();
   return std::ranges::all_of(hand_.palm, [&](const LinkShape& link) {
-    return surface_.IsApart(collision::Moved(to_object, link.shape), Needed(motion));
+    return surface_.IsApart(collision::Moved(to_object, link.enclosing), Needed(motion));
   });
 }
 

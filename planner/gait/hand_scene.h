@@ -106,7 +106,7 @@ class HandScene {
     int a;
     int b;
   };
-  /// Return all pairs that the hand model does not ignore.
+  /// Return all pairs that the hand model does not ignore, without redundant shapes.
   /// @param a, b  fingers; equal for self-collision, invalid for the palm.
   [[nodiscard]] std::vector<ShapePair> CheckedPairs(FingerIndex a, FingerIndex b) const;
 
@@ -114,6 +114,8 @@ class HandScene {
   const collision::SurfaceTree& surface_;
   double margin_;
   double object_reach_;  ///< radius of the object about its origin, metres
+  /// Whether a fingertip shape contains a covered shape, which then adds nothing [finger][shape].
+  std::vector<std::vector<bool>> redundant_;
   std::vector<collision::BoundingSphere> palm_balls_;
   std::vector<std::vector<collision::BoundingSphere>>
       balls_;  ///< bounding spheres [finger][shape], in the link's frame

@@ -91,8 +91,10 @@ double MotionBound(const Finger& finger, const JointConfiguration& from,
 
 std::vector<double> LinkReach(const Finger& finger, const LinkShape& shape) {
   double farthest = 0;
-  for (const Vector3d& point : shape.shape.points) farthest = std::max(farthest, point.norm());
-  farthest += shape.shape.radius;
+  for (const Vector3d& point : shape.enclosing.points) {
+    farthest = std::max(farthest, point.norm());
+  }
+  farthest += shape.enclosing.radius;
   std::vector<double> reach(shape.after);
   for (int i = shape.after - 1; i >= 0; --i) {
     reach[i] = farthest;

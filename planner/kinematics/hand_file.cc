@@ -26,6 +26,10 @@ using Eigen::Vector3d;
 constexpr int kWorldBody = 0;
 /// Distance in the reference configuration, metres, below which shapes are near by construction.
 constexpr double kNearAtRest = 1e-3;
+/// Number of points above which a shape is replaced for planning, and its largest growth, metres.
+/// With the hulls of meshes, of up to 500 points, a search is several times slower.
+constexpr std::size_t kFewPoints = 32;
+constexpr double kEnclosingTolerance = 3e-4;
 
 /// Builder of a HandModel from a description and a compiled model.
 /// All positions are those of the reference configuration, in the palm's frame.
@@ -77,6 +81,7 @@ class HandBuilder {
   void ExpectCoupledJoints() const;
   void SetLimits(const std::string& where, Finger& finger) const;
   bool IsPartOfTip(int geom) const;
+  bool IsTipBody(int body) const;
   void AddGeom(int geom);
   void AddTipShape(int index);
   void FindIgnored();
@@ -244,18 +249,33 @@ bool HandBuilder::IsPartOfTip(int geom) const {
   });
 }
 
+bool HandBuilder::IsTipBody(int body) const {
+  return std::ranges::any_of(description_.tips, [&](const HandDescription::Tip& tip) {
+    return mj_name2id(&model_, mjOBJ_BODY, tip.body.c_str()) == body;
+  });
+}
+
 void HandBuilder::AddGeom(int geom) {
   const int body = model_.geom_bodyid[geom];
   if (!Collides(model_, geom)) return;
   // The geom belongs to another kinematic tree, such as a table.
   if (model_.body_rootid[body] != model_.body_rootid[palm_]) return;
-  if (IsPartOfTip(geom)) return;
+  const bool is_covered = IsPartOfTip(geom);
+  // A marker inside a fingertip sphere adds nothing to it.
+  if (is_covered && !IsTipBody(body)) return;
   ConvexShape shape = ShapeOfGeom(model_, geom);
   if (shape.points.empty()) return;
   const Place place = PlaceOf(body);
   Isometry3d pose = from_world_ * PoseAt(rest_->geom_xpos, rest_->geom_xmat, geom);
   pose.translation() -= OriginAtRest(place);
-  LinkShape link{BodyName(model_, body), place.after, false, Moved(pose, shape)};
+  LinkShape link;
+  link.link = BodyName(model_, body);
+  link.after = place.after;
+  link.shape = Moved(pose, shape);
+  link.enclosing = link.shape.points.size() <= kFewPoints
+                       ? link.shape
+                       : collision::Enclosing(link.shape, kEnclosingTolerance);
+  if (is_covered) link.role = LinkShape::Role::kCovered;
   (place.after == 0 ? hand_.palm : hand_.fingers[place.finger].shapes).push_back(std::move(link));
 }
 
@@ -266,7 +286,7 @@ void HandBuilder::AddTipShape(int index) {
   const Vector3d origin = from_world_ * VectorAt(rest_->xpos, body) - OriginAtRest({index, after});
   ConvexShape capsule{{finger.tip.centre}, finger.tip.radius};
   if (!origin.isApprox(finger.tip.centre)) capsule.points.push_back(origin);
-  finger.shapes.push_back({finger.tip.body, after, true, std::move(capsule)});
+  finger.shapes.push_back({finger.tip.body, after, LinkShape::Role::kTip, capsule, capsule});
 }
 
 /// Ignore pairs of adjacent links, and pairs that are near each other in the reference

@@ -33,10 +33,19 @@ struct Joint {
 
 /// Collision shape of a part of the hand.
 struct LinkShape {
-  std::string link;     ///< body of the model
-  int after = 0;        ///< number of joints that move it; its frame is the last joint's
-  bool is_tip = false;  ///< whether the shape touches the object at a contact
+  enum class Role {
+    kLink,  ///< must not touch the object
+    kTip,   ///< represents a fingertip, and touches the object at a contact
+    /// Collision geometry of a fingertip's body, which a kTip shape represents for the object.
+    /// Other links must not touch it either.
+    kCovered,
+  };
+  std::string link;  ///< body of the model
+  int after = 0;     ///< number of joints that move it; its frame is the last joint's
+  Role role = Role::kLink;
   collision::ConvexShape shape;
+  /// Shape that contains `shape`, for planning: with fewer points if there are many.
+  collision::ConvexShape enclosing;
 };
 
 /// Fingertip sphere in the frame of the finger's last joint.

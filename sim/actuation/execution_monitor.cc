@@ -273,7 +273,7 @@ std::vector<HandLinks::Placed> ExecutionMonitor::PlaceLinks() const {
 
 std::string ExecutionMonitor::LinkText(const HandLinks::Placed& placed) const {
   const FingerIndex f = placed.link->finger;
-  return placed.link->body + " of " + (f.valid() ? FingerText(world_.hand(), f) : "the palm");
+  return placed.link->link + " of " + (f.valid() ? FingerText(world_.hand(), f) : "the palm");
 }
 
 ExecutionMonitor::Marks ExecutionMonitor::MarksOf(
@@ -296,7 +296,7 @@ void ExecutionMonitor::WatchLinks() {
   const Isometry3d to_object = world_.object_pose().inverse();
   const std::vector<HandLinks::Placed> placed = PlaceLinks();
   for (const HandLinks::Placed& one : placed) {
-    if (one.link->kind != HandLinks::Kind::kLink ||
+    if (one.link->role != HandLinks::Role::kLink ||
         object_->surface().IsApart(collision::Moved(to_object, one.shape), 0)) {
       continue;
     }
@@ -322,14 +322,14 @@ void ExecutionMonitor::WatchTips(const std::vector<HandLinks::Placed>& placed) {
     }
   }
   for (const HandLinks::Placed& one : placed) {
-    if (one.link->kind != HandLinks::Kind::kCovered) continue;
+    if (one.link->role != HandLinks::Role::kCovered) continue;
     const FingerIndex f = one.link->finger;
     if (is_ball) {
       const double allowed = kCoveredDepth * world_.hand().fingers[f].tip.radius;
       WatchDepth(f, one.shape, std::max(allowed, tolerance_.depth_m),
-                 "the collision geometry of body " + one.link->body);
+                 "the collision geometry of body " + one.link->link);
     } else if (!settling_) {
-      WatchDepth(f, one.shape, tolerance_.depth_m, "body " + one.link->body);
+      WatchDepth(f, one.shape, tolerance_.depth_m, "body " + one.link->link);
     }
   }
 }
@@ -354,7 +354,7 @@ void ExecutionMonitor::WatchTipsAtRest() {
   if (world_.tip_shape() != TipShape::kBall) return;
   const Isometry3d to_object = world_.object_pose().inverse();
   for (const HandLinks::Placed& one : placed) {
-    if (one.link->kind != HandLinks::Kind::kCovered) continue;
+    if (one.link->role != HandLinks::Role::kCovered) continue;
     const Vector3d outward = -world_.touch(one.link->finger).inward_O;
     const double depth =
         object_->Depth(collision::Moved(to_object, one.shape), kDeepestMeasured, outward);

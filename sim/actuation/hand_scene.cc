@@ -71,7 +71,7 @@ class CompiledScenes {
 
 HandScene::HandScene(const kinematics::HandFile& file, const object::Polyhedron& solid,
                      double scale, const HandWorldOptions& given)
-    : hand(file.hand), links(file), surface(file, given.tip, solid, scale), options(given) {
+    : hand(file.hand), links(file.hand), surface(file, given.tip, solid, scale), options(given) {
   model = CompiledScenes::Get(file, HandSceneText(file, solid, scale, options.mass_kg));
   SetRoom(surface.most_contacts(), options.physics, *model);
   data.reset(mj_makeData(model.get()));

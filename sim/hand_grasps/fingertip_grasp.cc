@@ -213,7 +213,7 @@ class FingertipReader {
     std::string nearest = links.back().link;
     double least = kFarthestTip_m;
     for (std::size_t i = 0; i < links.size(); ++i) {
-      if (touches && links[i].is_tip) continue;
+      if (touches && links[i].role != kinematics::LinkShape::Role::kLink) continue;
       const double distance = surface_.DistanceFrom(
           collision::Moved(end_.state.pose.inverse(), placed.shapes[i]), kFarthestTip_m);
       if (distance >= least) continue;

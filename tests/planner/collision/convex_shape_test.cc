@@ -166,5 +166,29 @@ TEST(ConvexShapeTest, TheBallContainsTheShape) {
   }
 }
 
+TEST(ConvexShapeTest, AnEnclosingShapeContainsTheShapeWithFewPoints) {
+  RandomStream random(5, RandomUse::kCandidates);
+  ConvexShape ball;
+  for (int i = 0; i < 400; ++i) ball.points.push_back(RandomVector(random).normalized());
+  ball.radius = 0.1;
+  std::size_t before = ball.points.size();
+  for (const double tolerance : {0.01, 0.05, 0.2}) {
+    const ConvexShape enclosing = Enclosing(ball, tolerance);
+    EXPECT_LE(enclosing.radius, ball.radius + tolerance);
+    EXPECT_LT(enclosing.points.size(), before);
+    before = enclosing.points.size();
+    for (const Vector3d& point : ball.points) {
+      EXPECT_LE(Distance({{point}, 0}, {enclosing.points, 0}).lower + ball.radius,
+                enclosing.radius * (1 + 1e-9));
+    }
+  }
+  EXPECT_LT(before, 40U);
+  // Few points remain themselves.
+  const ConvexShape box = Box({1, 2, 3}, {1, 1, 2});
+  EXPECT_EQ(Enclosing(box, 1e-3).points.size(), 8U);
+  EXPECT_LT(Enclosing(box, 1e-3).radius, 1e-9);
+  EXPECT_EQ(Enclosing({{Vector3d(1, 0, 0)}, 2}, 1e-3).radius, 2);
+}
+
 }  // namespace convex_shape_test
 }  // namespace regrasp::collision

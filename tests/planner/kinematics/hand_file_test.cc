@@ -154,7 +154,7 @@ TEST(FingerKinematicsTest, MotionIsBounded) {
       const auto before = FramesOf(finger, from);
       for (int k = 1; k <= 4; ++k) {
         const auto after = FramesOf(finger, from + 0.25 * k * (to - from));
-        for (const Eigen::Vector3d& point : link.shape.points) {
+        for (const Eigen::Vector3d& point : link.enclosing.points) {
           const double moved =
               (after[link.after - 1] * point - before[link.after - 1] * point).norm();
           ASSERT_LE(moved, bound + 1e-15);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planner/base/error.h"
 #include "planner/base/json.h"
 #include "planner/kinematics/hand_file.h"
@@ -169,6 +171,18 @@ TEST_F(CheckModelTest, AMarkerInsideTheFingertipIsPartOfIt) {
   const std::size_t plain = shapes("");
   EXPECT_EQ(shapes(R"(<body pos="0 0 0.034"><geom size="0.0002"/></body>)"), plain);
   EXPECT_EQ(shapes(R"(<body pos="0.02 0 0.01"><geom size="0.002"/></body>)"), plain + 1);
+}
+
+/// The planner knows all geometry of a fingertip's body, which other links must not touch.
+TEST_F(CheckModelTest, GeometryThatAFingertipReplacesIsCovered) {
+  const auto covered = [&](const std::string& inside) {
+    const HandModel hand = InspectHand(Write("ring.xml", RingXml({.inside = inside}))).hand;
+    return std::ranges::count(hand.fingers[0].shapes, LinkShape::Role::kCovered, &LinkShape::role);
+  };
+  // Capsule and sphere.
+  EXPECT_EQ(covered(""), 2);
+  EXPECT_EQ(covered(R"(<geom size="0.002" pos="0 0 0.026"/>)"), 3);
+  EXPECT_EQ(covered(R"(<geom size="0.002" pos="0 0 0.026" contype="0" conaffinity="0"/>)"), 2);
 }
 
 }  // namespace check_model_test
