@@ -33,7 +33,7 @@ constexpr double kRepresentativeRadius = 0.005;
 constexpr double kClusterOpacity = 0.85;
 
 /// Size of the details of links that an animation omits, pixels.
-constexpr double kLinkDetail = 0.7;
+constexpr double kLinkDetail = 1.2;
 
 /// Opacity of fingers behind an opaque object.
 constexpr double kXray = 0.6;
