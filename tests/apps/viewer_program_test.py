@@ -259,6 +259,7 @@ class Viewer(ProgramCase):
     def check_limits(self):
         """The limits of the joints are folded, a card per joint on a phone, and complete in print."""
         table = "document.querySelector('table.pairs')"
+        self.browser.resize(1000, 1000)
         self.assertFalse(self.browser.value(table + ".checkVisibility()"))
         self.browser.value(table + ".closest('details').open = true")
         self.assertTrue(self.browser.value(table + ".checkVisibility()"))
@@ -272,7 +273,7 @@ class Viewer(ProgramCase):
         self.browser.value(table + ".closest('details').open = false")
         self.browser.resize(1000, 1000, media="print")
         self.assertGreater(self.browser.value(table + ".getBoundingClientRect().height"), 200)
-        self.browser.resize(1000, 1000)
+        self.browser.resize(600, 900)
 
     def check_detail(self):
         """Successive slow frames reduce the detail until the replay pauses."""
