@@ -75,9 +75,9 @@ ScanOutline TraceScan(const ShadedMesh& surface, const PanelCamera& camera) {
     return !is_at_rim(x, y) && !is_at_rim(x2, y2) && IsOutline(buffer, step, x, y, x2, y2);
   });
   ScanOutline outline;
-  outline.areas = InPanel(
-      OutlineOf(buffer.width(), buffer.height(), kSmallestArea * per_point, is_inside), per_point,
-      corner);
+  outline.areas =
+      InPanel(OutlineOf(buffer.width(), buffer.height(), kSmallestArea * per_point, is_inside),
+              per_point, corner);
   outline.lines = InPanel(sides.Trace(kShortestOutline * per_point), per_point, corner);
   outline.lines.insert(outline.lines.end(), outline.areas.begin(), outline.areas.end());
   return outline;
