@@ -79,6 +79,17 @@ class GraspTableColumns {
     return head;
   }
 
+  /// Return the names of columns as a style sheet, for the cards of narrow screens.
+  [[nodiscard]] std::string NamesOfCards() const {
+    std::string style = "@media screen and (max-width: 40rem) {\n";
+    int column = 0;
+    ForEach({}, [&](std::string_view name, const std::string&, bool) {
+      style += "#grasps td:nth-child(" + std::to_string(++column) + ")::before { content: \"" +
+               std::string(name) + " \" }\n";
+    });
+    return style + "}\n";
+  }
+
   [[nodiscard]] Element Row(const GraspRow& row, const std::string& images) const {
     report::Attributes attributes = {{"class", row.verdict == "pass" ? "pass" : "fail"}};
     if (row.differs_from_claim()) attributes.emplace_back("data-also", "claim differs");
@@ -260,8 +271,9 @@ std::string FormatGraspPage(const std::filesystem::path& reports, const GraspPag
   for (const GraspRow& row : rows.rows) table.rows.push_back(rows.columns.Row(row, page.images));
   for (const Element& part : report::MakeDataTable(table)) parts.push_back(part);
   const std::array scripts = {report::DataTableScript()};
-  return report::FormatHtmlPage("Evaluation of " + page.grasps, parts,
-                                report::PictureSource::kInPage, scripts, report::DataTableStyle());
+  return report::FormatHtmlPage(
+      "Evaluation of " + page.grasps, parts, report::PictureSource::kInPage, scripts,
+      std::string(report::DataTableStyle()) + rows.columns.NamesOfCards());
 }
 
 }  // namespace regrasp::apps

@@ -212,8 +212,9 @@ std::string DepthToleranceText(const Report& report) {
 std::string RuleOf(Reason reason, bool hand, const Report& report) {
   switch (reason) {
     case Reason::kOffSurface:
-      return "a contact must be on the surface to within " + FormatShort(object::kPointTolerance) +
-             " of the object's diameter, or the precision of float32 coordinates if that is "
+      return "a contact must be on the surface to within " +
+             FormatPlain(100 * object::kPointTolerance, 2) +
+             " % of the object's diameter, or the precision of float32 coordinates if that is "
              "coarser";
     case Reason::kWrongNormal:
       return "the normal of a contact must be the inward normal of its face";
@@ -240,11 +241,11 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kOffPoint:
       return "in a plan with given contacts, each contact must be at a point of the object's file: "
              "at most " +
-             FormatShort(object::kAtGivenPoint) +
-             " of the object's diameter from it, and without moving along the surface";
+             FormatPlain(100 * object::kAtGivenPoint, 2) +
+             " % of the object's diameter from it, and without moving along the surface";
     case Reason::kHandJumps:
-      return "a step must begin with the last state of hand and object: to 1e-9 m and 1e-8 rad for "
-             "the object, to 1e-9 rad for a joint";
+      return "a step must begin with the last state of hand and object: to 1 nm and 10 nrad for "
+             "the object, to 1 nrad for a joint";
     case Reason::kTipOffContact:
       return "the fingertip sphere of a finger in contact must be at its contact, to 1 µm in a "
              "static grasp and to 100 µm along a motion";
@@ -258,7 +259,7 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kCouplingViolated:
       return hand ? "coupled joints must keep the relation of the hand's model in every state of "
                     "the "
-                    "plan, to 1e-6 rad"
+                    "plan, to 1 µrad"
                   : "coupled joints must stay within " + JointToleranceText(report) +
                         " of their coupling";
     case Reason::kTipPenetrates:
@@ -282,7 +283,7 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kGoalNotReached:
       if (hand) {
         return "the object must end at the goal of the plan's hand and be in each goal set of the "
-               "plan, to 1 µm and 1e-6 rad";
+               "plan, to 1 µm and 1 µrad";
       }
       return "the contacts after the last step must be those of the goal";
     case Reason::kNone:

@@ -185,6 +185,13 @@ namespace {
 
 /// Significant digits of lengths.
 constexpr int kLengthDigits = 2;
+constexpr double kMillimetres = 1e3;
+
+/// Return a length in millimetres. Motions of less than a micrometre are errors of the simulation.
+std::string MillimetresText(double metres) {
+  constexpr double kLeast_m = 1e-6;
+  return metres < kLeast_m ? "<0.001" : FormatPlain(kMillimetres * metres, kLengthDigits);
+}
 
 constexpr char kNothing[] = "-";
 
@@ -215,7 +222,7 @@ std::string FixedVerdict(const ReportStep& step) {
 
 TextRow MakeRow(const ReportStep& step, const Columns& columns) {
   const auto length = [&](double sim::StepReplay::*member) -> std::string {
-    return step.replay ? FormatShort((*step.replay).*member, kLengthDigits) : kNothing;
+    return step.replay ? MillimetresText((*step.replay).*member) : kNothing;
   };
   TextRow row = {std::to_string(step.check.index), step.check.kind, RequiredAngle(step),
                  length(&sim::StepReplay::displacement_m), length(&sim::StepReplay::slip_m)};
@@ -341,7 +348,7 @@ std::string FormatTrials(const Report& report) {
 
 std::string FormatReportTable(const Report& report) {
   const Columns columns = ColumnsOf(report);
-  std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_m", "slip_m"}};
+  std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_mm", "slip_mm"}};
   if (columns.regions) rows.front().push_back("region");
   if (columns.fixed) rows.front().push_back("fixed_squeeze");
   rows.front().push_back("verdict");
@@ -357,7 +364,6 @@ namespace {
 
 constexpr int kShareDigits = 3;
 constexpr int kEndDigits = 2;
-constexpr double kMillimetres = 1e3;
 
 std::string PercentText(double share) { return FormatShort(100 * share, kShareDigits) + " %"; }
 

@@ -42,21 +42,38 @@ std::string VerdictWord(const PlanOutcome& plan) {
   return "";
 }
 
-/// Return the failure with its cause and remedy; empty if the plan passes.
-std::string FailureText(const PlanOutcome& plan) {
-  if (!plan.report) return plan.message;
+/// A failure, and its cause and remedy; empty if the plan passes.
+struct FailureText {
+  std::string what, why;
+};
+
+std::string OnOneLine(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+FailureText FailureOf(const PlanOutcome& plan) {
+  if (!plan.report) return {OnOneLine(plan.message), ""};
   const auto failure = plan.report->failure();
-  if (!failure) return "";
+  if (!failure) return {};
   const std::string where =
       !failure->entry.valid() ? "Trials"
       : failure->entry == 0   ? "The hold"
                             : "Step " + std::to_string(failure->entry) + " (" + failure->kind + ")";
-  std::string text =
-      where + ": " +
-      (failure->what.empty() ? failure->reason + "." : report::Capitalized(failure->what) + ".") +
-      report::CauseAndFix(failure->why, failure->suggested_fix);
-  std::ranges::replace(text, '\n', ' ');
-  return text;
+  std::string why = report::CauseAndFix(failure->why, failure->suggested_fix);
+  if (!why.empty()) why.erase(0, 1);  // the line feed before it
+  return {OnOneLine(where + ": " + (failure->what.empty() ? failure->reason : failure->what) + "."),
+          OnOneLine(why)};
+}
+
+/// Return a cell with a failure. Cause and remedy are folded, because they would make a row as high
+/// as several others.
+Element FailureCell(const FailureText& failure) {
+  Element cell = report::WithOptions(Element("td"), failure.what);
+  if (failure.why.empty()) return cell;
+  Element why = report::WithOptions(Element("p"), failure.why);
+  cell.Add(Element("details", {}, Element("summary", {}, "Cause and remedy"), why));
+  return cell;
 }
 
 /// Return the friction margin of the weakest step, degrees. A failed plan has only a missing
@@ -88,9 +105,18 @@ Element TextCell(const std::string& text) {
   return Element("td", {}, text);
 }
 
-Element NumberOrDash(const std::optional<double>& value, const std::string& text) {
+/// @param more  text below the number; may be empty.
+Element NumberOrDash(const std::optional<double>& value, const std::string& text,
+                     const std::string& more = "") {
   if (!value) return Element("td", {{"class", "number none"}}, kMissing);
-  return report::ValueCell(FormatShort(*value), text);
+  Element cell = report::ValueCell(FormatShort(*value), text);
+  if (!more.empty()) cell.Add(Element("small", {}, " " + more));
+  return cell;
+}
+
+/// Return an angle with a minus sign instead of a hyphen.
+std::string AngleText(double degrees) {
+  return (degrees < 0 ? "\u2212" : "") + FormatDegrees(std::abs(degrees));
 }
 
 /// Images are loaded lazily, because there may be thousands.
@@ -130,9 +156,9 @@ Element Row(const PlanOutcome& plan) {
           : Element("td", {}, plan.name));
   row.Add(Element("td", {{"class", "outcome"}}, VerdictWord(plan)));
   row.Add(TextCell(failure ? failure->reason : ""));
-  const std::string failed = FailureText(plan);
-  row.Add(failed.empty() ? TextCell(failed) : report::WithOptions(Element("td"), failed));
-  row.Add(NumberOrDash(margin, margin ? FormatDegrees(*margin) + " in " + weakest : ""));
+  const FailureText failed = FailureOf(plan);
+  row.Add(failed.what.empty() ? TextCell("") : FailureCell(failed));
+  row.Add(NumberOrDash(margin, margin ? AngleText(*margin) : "", "in " + weakest));
   row.Add(NumberOrDash(steps, steps ? FormatShort(*steps) : ""));
   row.Add(NumberOrDash(report.friction_angle_deg,
                        report.friction_angle_deg ? FormatDegrees(*report.friction_angle_deg) : ""));

@@ -69,7 +69,13 @@ LengthUnit UnitOfLength(double metres, int digits) {
 }
 
 std::string FormatPlain(double value, int digits) {
-  constexpr double kLargest = 1e6;
+  constexpr double kLargest = 1e6, kUsual = 1e-3, kSmallest = 1e-12;
+  if (std::abs(value) >= kSmallest && std::abs(value) < kUsual) {
+    const int place = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    std::string text = FormatFixed(value, digits - 1 - place);
+    text.erase(text.find_last_not_of('0') + 1);
+    return text;
+  }
   // Numbers that round up to one more digit already have that digit.
   if (!(std::abs(value) >= std::pow(10.0, digits) - 0.5) || std::abs(value) >= kLargest) {
     return FormatShort(value, digits);

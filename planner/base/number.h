@@ -38,7 +38,7 @@ struct LengthUnit {
 /// Format a double for users with `digits` significant digits, independently of the locale.
 [[nodiscard]] std::string FormatShort(double value, int digits = 4);
 
-/// Format a number for users with `digits` significant digits, without an exponent below a million.
+/// Format a number with `digits` significant digits, without exponent from 1e-12 up to a million.
 [[nodiscard]] std::string FormatPlain(double value, int digits);
 
 /// Format a length for users with `digits` significant digits, in a suitable unit.

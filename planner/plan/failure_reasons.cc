@@ -121,7 +121,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kHand,
      .meaning =
          "With `--hand`: a step does not begin with the last state of the previous step (object "
-         "to 1e-9 m and 1e-8 rad, joint to 1e-9 rad). Or a step has no path of the hand, or a "
+         "to 1 nm and 10 nrad, joint to 1 nrad). Or a step has no path of the hand, or a "
          "path has another number of fingers or joints than the hand.",
      .causes = "Steps were removed, reordered or joined from different plans.\n"
                "The plan was made for another hand file.",
@@ -131,7 +131,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .check = kHand,
      .meaning =
          "With `--hand`: the fingertip sphere of a holding finger is not at its contact. The "
-         "tolerance is 1e-6 m in a static grasp and 1e-4 m along a motion.",
+         "tolerance is 1 µm in a static grasp and 100 µm along a motion.",
      .causes = "Joint angles were rounded or come from another model of the hand.\n"
                "Two states of a motion are too far apart.",
      .remedies = "Correct the joint angles.\nAdd states to the path."},
@@ -161,7 +161,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
     {.name = "coupling-violated",
      .check = kHand,
      .meaning =
-         "With `--hand`: a joint is more than 1e-6 rad from the angle that its coupling "
+         "With `--hand`: a joint is more than 1 µrad from the angle that its coupling "
          "requires (an equality constraint, `<mimic>`, or `couplings` of the hand file). With "
          "`--replay hand`: it is more than 1° from that angle.",
      .causes = "The plan was made with a hand file without couplings.\n"
@@ -258,7 +258,7 @@ constexpr std::array kFailureReasons = std::to_array<FailureReason>({
      .meaning =
          "Last step: its contacts are not those of the plan's goal, or the goal is not the "
          "grasp of --goal. With `--hand` also: the object's last pose is not the hand's goal, or "
-         "the object is outside a goal set after its step. The tolerance is 1e-6 m and 1e-6 rad.",
+         "the object is outside a goal set after its step. The tolerance is 1 µm and 1 µrad.",
      .causes = "Steps are missing at the end of the plan.\nThe plan was made for another goal.",
      .remedies = "Add steps that end in the goal.\nPlan for this goal."},
     {.name = "concave-corner",

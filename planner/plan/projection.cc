@@ -336,10 +336,13 @@ std::string OffSurfaceText(const object::Object& object, const Eigen::Vector3d& 
       (NearestContact(object, {point, Eigen::Vector3d::Zero()}).p - point).stableNorm();
   const double tolerance = SurfaceTolerance(object);
   const bool single = tolerance > object::kPointTolerance * object.diameter();
-  return "off the surface, expected at most " + FormatShort(tolerance / object.diameter()) +
-         " of the object's diameter" +
+  constexpr int kDigits = 4;
+  const auto percent = [&](double length) {
+    return FormatPlain(100 * length / object.diameter(), kDigits) + " %";
+  };
+  return "off the surface, expected at most " + percent(tolerance) + " of the object's diameter" +
          (single ? " (the precision of float32 at this distance from the origin)" : "") +
-         ", found " + FormatShort(distance / object.diameter()) + " (" + FormatShort(distance) +
+         ", found " + percent(distance) + " (" + FormatPlain(distance, kDigits) +
          " in the object file's unit)";
 }
 

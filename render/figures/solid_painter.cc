@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "render/figures/scan_outline.h"
 #include "render/picture/cairo_paint.h"
 #include "render/picture/image.h"
 
@@ -64,14 +66,42 @@ SolidPainter::SolidPainter(cairo_t* cr, const BodyShape& body, const PanelCamera
 
 LineParts SolidPainter::Edges() const {
   std::vector<LineSegment> lines = body_.edges;
-  for (const LineSegment& line :
-       FindOutline(body_, [this](const Vector3d&) { return camera_.back(); })) {
-    lines.push_back(line);
+  if (!IsScan()) {
+    for (const LineSegment& line :
+         FindOutline(body_, [this](const Vector3d&) { return camera_.back(); })) {
+      lines.push_back(line);
+    }
   }
   return SplitByVisibility(body_.rays, lines, camera_.back());
 }
 
+void SolidPainter::FillScan() {
+  ScanOutline scan = TraceScan(body_.surface, camera_);
+  outlines_ = std::move(scan.lines);
+  cairo_new_path(cr_);
+  cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_EVEN_ODD);
+  for (const Polyline& area : scan.areas) AddOutline(cr_, area);
+  Fill(cr_, kMaterial);
+  edges_ = Edges();
+  edges_.hidden.clear();  // hidden edges of a scan would cover it
+}
+
+void SolidPainter::StrokeScan(double width) const {
+  cairo_new_path(cr_);
+  for (const Polyline& line : outlines_) {
+    cairo_new_sub_path(cr_);
+    for (const Vector2d& p : line) cairo_line_to(cr_, p.x(), p.y());
+  }
+  cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(cr_, width);
+  cairo_stroke(cr_);
+}
+
 void SolidPainter::DrawBody() {
+  if (IsScan()) {
+    FillScan();
+    return;
+  }
   // Triangles that face the eye have the same orientation, so that they fill one area.
   cairo_new_path(cr_);
   cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_WINDING);
@@ -81,8 +111,6 @@ void SolidPainter::DrawBody() {
   }
   FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
   edges_ = Edges();
-  // Hidden parts of a scan's outline have no edges to which they could belong.
-  if (!body_.shell.triangles.empty()) edges_.hidden.clear();
   SetColor(cr_, kHiddenInk);
   cairo_set_dash(cr_, &kHiddenDash, 1, 0);
   for (const auto& [a, b] : edges_.hidden) StrokeLine(cr_, camera_(a), camera_(b), kHiddenEdge);
@@ -93,6 +121,7 @@ void SolidPainter::DrawVisibleEdges() {
   cairo_set_line_cap(cr_, CAIRO_LINE_CAP_ROUND);
   SetColor(cr_, kInk);
   for (const auto& [a, b] : edges_.visible) StrokeLine(cr_, camera_(a), camera_(b), kEdge);
+  StrokeScan(kEdge);
   cairo_set_line_cap(cr_, CAIRO_LINE_CAP_BUTT);
 }
 
@@ -170,6 +199,11 @@ void SolidPainter::DrawNumbers(const std::vector<FingerGlyph>& fingers,
   for (const auto& [a, b] : edges_.visible) {
     obstacles.push_back({camera_(a), camera_(b), 0, kEdgeWeight});
   }
+  for (const Polyline& line : outlines_) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      obstacles.push_back({line[i - 1], line[i], 0, kEdgeWeight});
+    }
+  }
   for (const FingerGlyph& glyph : fingers) {
     const Vector2d contact = camera_(glyph.contact);
     const Vector2d end = camera_(glyph.end);
@@ -187,7 +221,12 @@ void SolidPainter::DrawGhost(Color color) {
   constexpr double kGhostEdge = 0.5, kGhostDash = 2.4;
   SetColor(cr_, color);
   cairo_set_dash(cr_, &kGhostDash, 1, 0);
-  for (const auto& [a, b] : Edges().visible) StrokeLine(cr_, camera_(a), camera_(b), kGhostEdge);
+  if (IsScan()) {
+    outlines_ = TraceScan(body_.surface, camera_).lines;
+    StrokeScan(kGhostEdge);
+  } else {
+    for (const auto& [a, b] : Edges().visible) StrokeLine(cr_, camera_(a), camera_(b), kGhostEdge);
+  }
   cairo_set_dash(cr_, nullptr, 0, 0);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/figures/figure_page.h"
+#include "render/figures/region_lines.h"
 #include "render/figures/solid_figure.h"
 #include "render/frames/body_shape.h"
 #include "render/frames/finger_glyph.h"
@@ -62,10 +63,15 @@ class SolidPainter {
   [[nodiscard]] bool IsBehind(const FingerGlyph& glyph) const;
   void DrawLine(const LineSegment& line, Color color, double width);
 
+  [[nodiscard]] bool IsScan() const { return !body_.shell.triangles.empty(); }
+  void FillScan();
+  void StrokeScan(double width) const;
+
   cairo_t* cr_;
   const BodyShape& body_;
   PanelCamera camera_;
   LineParts edges_;
+  std::vector<Polyline> outlines_;  ///< visible outlines of a scan, points
 };
 
 }  // namespace regrasp::render

@@ -121,4 +121,17 @@ void SurfaceBuffer::AddTriangle(const std::array<Vector3d, 3>& corners,
   }
 }
 
+bool IsOutline(const SurfaceBuffer& surfaces, double step, int x, int y, int x2, int y2) {
+  constexpr int kNothing = SurfaceBuffer::kNothing;
+  const int label = surfaces.LabelAt(x, y), label2 = surfaces.LabelAt(x2, y2);
+  if (label == kNothing || label2 == kNothing) return label != label2;
+  const float rise = surfaces.DepthAt(x2, y2) - surfaces.DepthAt(x, y);
+  if (std::abs(rise) < step) return false;
+  // A steep surface rises at about the same rate in front of and after the samples.
+  const int dx = x2 - x, dy = y2 - y;
+  const float before = surfaces.DepthAt(x, y) - surfaces.DepthAt(x - dx, y - dy);
+  const float after = surfaces.DepthAt(x2 + dx, y2 + dy) - surfaces.DepthAt(x2, y2);
+  return std::abs(rise - before) > step / 2 && std::abs(rise - after) > step / 2;
+}
+
 }  // namespace regrasp::render

@@ -58,4 +58,10 @@ class SurfaceBuffer {
   std::vector<Sample> samples_;
 };
 
+/// Return whether a step of depth, or the border of a surface, separates two neighbouring samples.
+/// Labels do not matter otherwise, because the links of a finger overlap at its joints.
+/// @param step  smallest step of depth, samples.
+[[nodiscard]] bool IsOutline(const SurfaceBuffer& surfaces, double step, int x, int y, int x2,
+                             int y2);
+
 }  // namespace regrasp::render

@@ -80,7 +80,7 @@ void DrawWithSolid(const ShapePainter& painter, const Drawing& drawing) {
   gl().Finish();
 }
 
-/// Return an opacity whose alpha is odd for a rim and even for other shapes.
+/// Return an opacity whose alpha is odd for a rim that shines through and even for other shapes.
 double MarkedOpacity(double opacity, bool is_rim) {
   const auto alpha = static_cast<int>(std::lround(kFullAlpha * opacity));
   const bool is_odd = alpha % 2 != 0;
@@ -90,8 +90,8 @@ double MarkedOpacity(double opacity, bool is_rim) {
 
 bool IsRim(const unsigned char* sample) { return sample[3] % 2 != 0; }
 
-/// Draw a veil alone. The alpha of its samples is their opacity, which marks rims (MarkedOpacity),
-/// and 0 elsewhere.
+/// Draw a veil alone. The alpha of its samples is their opacity, which marks rims that shine
+/// through (MarkedOpacity), and 0 elsewhere.
 void DrawVeil(const ShapePainter& painter, const Veil& veil) {
   ClearAll();
   SetMask(true, true);
@@ -102,7 +102,8 @@ void DrawVeil(const ShapePainter& painter, const Veil& veil) {
   for (const Shape& shape : veil.shapes) draw(shape, false);
   // The shapes hide nearly all of the rims, which need no colours there.
   gl().DepthFunc(GL_LESS);
-  for (const Shape& shape : veil.rims) draw(shape, true);
+  for (const Shape& shape : veil.rims) draw(shape, false);
+  for (const Shape& shape : veil.xray_rims) draw(shape, true);
   gl().DepthFunc(GL_LEQUAL);
   gl().Finish();
 }
@@ -299,8 +300,8 @@ class Canvas::Impl {
     return samples_;
   }
 
-  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has the
-  /// rims of a veil, even if the solid hides them.
+  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has
+  /// rims of a veil (Veil::xray_rims), even if the solid hides them.
   void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band) {
     const SampleBox box = VisibleBox(samples_, band);
     if (box.empty()) return;
@@ -328,6 +329,7 @@ class Canvas::Impl {
   std::vector<unsigned char> ComposeLayers(const ShapePainter& painter, const Drawing& drawing,
                                            const SampleBand& band) const {
     std::vector<Shape> all = drawing.veil->rims;
+    all.insert(all.end(), drawing.veil->xray_rims.begin(), drawing.veil->xray_rims.end());
     all.insert(all.end(), drawing.veil->shapes.begin(), drawing.veil->shapes.end());
     DrawPass(painter, drawing, all);
     std::vector<unsigned char> veil = CopySamples(band);

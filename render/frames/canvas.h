@@ -60,13 +60,14 @@ struct Window {
 /// Translucent shapes in front of and behind the layers or the solid, each with its own opacity.
 ///
 /// At each pixel only the nearest shape is visible. It is blended below the layers if one of
-/// `covers` is in front of it, otherwise over them. A solid hides it, but its rims shine through
+/// `covers` is in front of it, otherwise over them. A solid hides it, but some rims shine through
 /// (Solid).
 struct Veil {
   std::vector<Shape> shapes;
   std::vector<Shape> rims = {};  ///< shells of which only the rim is not hidden by `shapes`
   std::vector<MeshInstance> covers = {};  ///< only with layers
   std::vector<Window> windows = {};       ///< areas in which the veil is more transparent
+  std::vector<Shape> xray_rims = {};      ///< shells whose rims also shine through a solid
 };
 
 /// An opaque object, through which hidden shapes shine faintly as in an X-ray image.

@@ -32,11 +32,8 @@ constexpr double kRepresentativeRadius = 0.005;
 /// Opacity of the near surface if it shows clusters.
 constexpr double kClusterOpacity = 0.85;
 
-/// Size of texts in an image of a page, relative to those of a frame.
-constexpr double kPageFont = 1.5;
-
 /// Size of the details of links that an animation omits, pixels.
-constexpr double kLinkDetail = 0.7;
+constexpr double kLinkDetail = 1.2;
 
 /// Opacity of fingers behind an opaque object.
 constexpr double kXray = 0.6;
@@ -141,7 +138,7 @@ class FrameRenderer::Impl {
                 const std::vector<FingerGlyph>& fingers, const std::vector<Vector3d>& arrow,
                 const FrameText& text, const FaultMarks* fault, Color paper) {
     TextStyle style = style_;
-    if (text.is_on_page) style.font *= kPageFont;
+    style.font *= text.size;
     DrawRings(image, camera, fingers, style);
     // The heading of a fault has the place of the progress.
     const bool has_heading = fault != nullptr;
@@ -173,9 +170,10 @@ class FrameRenderer::Impl {
     const std::vector<plan::HandLink> none;
     const auto first_mesh = static_cast<int>(model_.meshes.size());
     return {model_.hand->Shapes(snapshot, fault != nullptr ? fault->links : none, first_mesh),
-            model_.hand->Rims(snapshot, first_mesh),
+            model_.hand->Rims(snapshot, /*in_contact=*/false, first_mesh),
             {{kOutsideMesh, model_.frame.BodyPose(snapshot.X_WO)}},
-            model_.hand->Windows(snapshot, fingers, camera)};
+            model_.hand->Windows(snapshot, fingers, camera),
+            model_.hand->Rims(snapshot, /*in_contact=*/true, first_mesh)};
   }
 
   /// Draw the pose before an in-hand motion and an arrow of the rotation, unless a fault has its

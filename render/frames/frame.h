@@ -35,9 +35,10 @@ inline constexpr int kCommonView = -1;
 struct FrameText {
   std::string caption;        ///< text at the bottom left
   std::string progress = {};  ///< text at the top right
-  /// Whether the image is part of a page. The page has the heading of a fault as text, so that the
-  /// image omits it. Labels are larger, because pages show images at a fraction of their size.
+  /// Whether the image is part of a page or an overview, which has the heading of a fault as text.
+  /// The image then omits it.
   bool is_on_page = false;
+  double size = 1;  ///< size of texts; larger ones stay readable in images that are shown smaller
 };
 
 struct FrameOptions {

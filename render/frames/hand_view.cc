@@ -159,11 +159,8 @@ std::vector<Shape> HandFigure::Shapes(const plan::Snapshot& snapshot,
     if (std::ranges::find(at_fault, link) != at_fault.end()) {
       return Mixed(kHandColor, kFaultRed, kFaultTint);
     }
-    const auto finger =
-        std::ranges::find(snapshot.fingers, link.finger, &plan::FingerState::finger);
-    const bool touches = finger != snapshot.fingers.end() && Touches(*finger);
-    return touches && is_fingertip_[i] ? Mixed(kHandColor, FingerColor(link.finger), kTint)
-                                       : kHandColor;
+    return IsInContact(snapshot, i) ? Mixed(kHandColor, FingerColor(link.finger), kTint)
+                                    : kHandColor;
   };
   std::vector<Shape> shapes;
   for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
@@ -174,9 +171,18 @@ std::vector<Shape> HandFigure::Shapes(const plan::Snapshot& snapshot,
   return shapes;
 }
 
-std::vector<Shape> HandFigure::Rims(const plan::Snapshot& snapshot, int first_mesh) const {
+bool HandFigure::IsInContact(const plan::Snapshot& snapshot, std::size_t link) const {
+  if (!is_fingertip_[link]) return false;
+  const auto finger =
+      std::ranges::find(snapshot.fingers, links_[link].finger, &plan::FingerState::finger);
+  return finger != snapshot.fingers.end() && Touches(*finger);
+}
+
+std::vector<Shape> HandFigure::Rims(const plan::Snapshot& snapshot, bool in_contact,
+                                    int first_mesh) const {
   std::vector<Shape> shapes;
   for (std::size_t i = 0; i < snapshot.links_W.size(); ++i) {
+    if (IsInContact(snapshot, i) != in_contact) continue;
     const int mesh = first_mesh + 2 * static_cast<int>(i);
     shapes.push_back({MeshInstance{mesh, PoseOf(snapshot, i)}, kHandOutline, kHandOpacity});
   }

@@ -46,8 +46,9 @@ class HandFigure {
   [[nodiscard]] std::vector<Shape> Shapes(const plan::Snapshot& snapshot,
                                           std::span<const plan::HandLink> at_fault,
                                           int first_mesh) const;
-  /// Return the shells of these links.
-  [[nodiscard]] std::vector<Shape> Rims(const plan::Snapshot& snapshot, int first_mesh) const;
+  /// Return the shells of the fingertips in contact, or those of all other links.
+  [[nodiscard]] std::vector<Shape> Rims(const plan::Snapshot& snapshot, bool in_contact,
+                                        int first_mesh) const;
 
   /// Return the windows through a hand that would hide contacts. The more of a contact is hidden,
   /// the clearer the window.
@@ -62,6 +63,7 @@ class HandFigure {
   [[nodiscard]] std::vector<PlacedRays> Rays(const plan::Snapshot& snapshot) const;
 
  private:
+  [[nodiscard]] bool IsInContact(const plan::Snapshot& snapshot, std::size_t link) const;
   [[nodiscard]] Eigen::Isometry3d PoseOf(const plan::Snapshot& snapshot, std::size_t link) const;
 
   NormalizedFrame frame_;

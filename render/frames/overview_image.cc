@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/frames/annotation.h"
 #include "render/picture/cairo_paint.h"
 
 namespace regrasp::render {
@@ -22,6 +23,10 @@ constexpr double kOverviewAspect = 4.0 / 3;
 constexpr double kOverviewFontSize = 0.05;
 constexpr double kSmallestOverviewFont = 11;
 constexpr double kLargestFont = 1.0 / 70;
+
+/// Font size of texts in images per font size of labels, and the maximum of FrameText::size.
+constexpr double kTextPerLabel = 0.8;
+constexpr double kLargestText = 2.5;
 
 constexpr double kGap = 0.04;         ///< gap between images per width of an image
 constexpr double kLabelHeight = 1.5;  ///< height of a label per font size
@@ -100,6 +105,11 @@ OverviewImage::OverviewImage(int count, int width, int height, int total_width,
 OverviewImage::~OverviewImage() = default;
 
 Image OverviewImage::ToImage() const { return image_->ToImage(); }
+
+double OverviewImage::TextSize() const {
+  const double shown = FontSize(width_, height_) * grid_.width / width_;
+  return std::clamp(kTextPerLabel * grid_.font / shown, 1.0, kLargestText);
+}
 
 void OverviewImage::Add(const Image& image, const OverviewLabel& label) {
   if (image.width != width_ || image.height != height_) {

@@ -67,6 +67,9 @@ class OverviewImage {
 
   [[nodiscard]] Image ToImage() const;
 
+  /// Return the size of the texts of frames (FrameText::size) that are readable in this overview.
+  [[nodiscard]] double TextSize() const;
+
  private:
   void DrawHeading(const OverviewLabel& heading);
   /// Draw the label of the next cell and return its index.

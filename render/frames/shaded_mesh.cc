@@ -154,21 +154,27 @@ ShadedMesh MakeCapsule(const Vector3d& from, const Vector3d& to, double radius) 
   const Vector3d axis = is_sphere ? Vector3d::UnitZ() : Vector3d((to - from).normalized());
   const auto [u, v] = AcrossOf(axis);
   constexpr int kLast = 2 * kCapsuleRings + 1;
-  const auto normal = [&](int ring, double side) -> Vector3d {
+  // Corners share their normals: a capsule is drawn in every frame, and sines take time.
+  std::array<std::array<Vector3d, kCapsuleSides + 1>, kLast + 1> normals;
+  for (int ring = 0; ring <= kLast; ++ring) {
     const bool far_end = ring > kCapsuleRings;
     const double tilt =
         std::numbers::pi / 2 * ((far_end ? ring - 1 : ring) - kCapsuleRings) / kCapsuleRings;
-    const double turn = 2 * std::numbers::pi * side / kCapsuleSides;
-    return std::cos(tilt) * (std::cos(turn) * u + std::sin(turn) * v) + std::sin(tilt) * axis;
-  };
-  const auto point = [&](int ring, double side) -> Vector3d {
-    return (ring > kCapsuleRings ? to : from) + radius * normal(ring, side);
-  };
+    for (int side = 0; side <= kCapsuleSides; ++side) {
+      const double turn = 2 * std::numbers::pi * side / kCapsuleSides;
+      normals[ring][side] =
+          std::cos(tilt) * (std::cos(turn) * u + std::sin(turn) * v) + std::sin(tilt) * axis;
+    }
+  }
   ShadedMesh capsule;
   for (int ring = 0; ring < kLast; ++ring) {
     for (int side = 0; side < kCapsuleSides; ++side) {
-      const auto corner = [&](int i, int j) { return point(ring + i, side + j); };
-      const auto across = [&](int i, int j) { return normal(ring + i, side + j); };
+      const auto across = [&](int i, int j) -> const Vector3d& {
+        return normals[ring + i][side + j];
+      };
+      const auto corner = [&](int i, int j) -> Vector3d {
+        return (ring + i > kCapsuleRings ? to : from) + radius * across(i, j);
+      };
       if (ring > 0) {
         capsule.Add({corner(0, 0), corner(0, 1), corner(1, 1)},
                     {across(0, 0), across(0, 1), across(1, 1)});

@@ -391,7 +391,7 @@ class Mp4 : public Video {
                   kFramesPerSecond,
                   /*index_first=*/true,
                   // "mbtree" uses floating-point estimates that depend on the processor.
-                  {{"preset", "medium"},
+                  {{"preset", "faster"},
                    {"tune", "animation"},
                    {"mbtree", "0"},
                    {"crf", kRateFactor}}}) {}

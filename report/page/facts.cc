@@ -220,7 +220,7 @@ std::vector<Element> WhatItTakes(const Report& report, FingerNames names) {
       "normal in the replay.";
   return {
       Element("h2", {}, has_margins ? "Required friction and force margins" : "Required friction"),
-      ScrolledTable(head, rows), Note(note + (has_margins ? margins : ""))};
+      ScrolledTable(head, rows, "narrow"), Note(note + (has_margins ? margins : ""))};
 }
 
 std::optional<double> Least(const ReportStep& step, double sim::ResistedWrench::*route) {
@@ -272,20 +272,33 @@ std::vector<Element> ResistedWrenches(const Report& report) {
   return found;
 }
 
-Element LimitsRow(const sim::DriveLimits& limit, FingerNames names) {
-  Element row("tr", {}, Element("td", {}, FingerText(limit.finger, names)));
-  row.Add(Element("td", {}, limit.joint));
-  row.Add(Element("td", {}, limit.actuator));
-  row.Add(NumberCell(std::isfinite(limit.torque_Nm) ? NumberText(limit.torque_Nm) : "unknown"));
-  row.Add(NumberCell(limit.control ? NumberText(limit.control->front()) + " to " +
-                                         NumberText(limit.control->back())
-                                   : "none"));
-  row.Add(NumberCell(FormatDegrees(Degrees(limit.lower_rad)) + " to " +
-                     FormatDegrees(Degrees(limit.upper_rad))));
-  return row;
+// Columns of the table of limits after finger and joint.
+constexpr char kActuator[] = "Actuator";
+constexpr char kTorque[] = "Torque, N·m";
+constexpr char kControl[] = "Control range";
+constexpr char kJointRange[] = "Joint range";
+
+/// Return "−45° to 90°".
+std::string RangeText(double lower, double upper, const std::string& unit) {
+  const auto text = [&](double value) {
+    return (value < 0 ? "\u2212" : "") + NumberText(std::abs(value)) + unit;
+  };
+  return text(lower) + " to " + text(upper);
 }
 
-/// Return the limits that a replay by a hand assumes.
+Element LimitsRow(const sim::DriveLimits& limit, FingerNames names) {
+  const std::string torque =
+      std::isfinite(limit.torque_Nm) ? NumberText(limit.torque_Nm) : "unknown";
+  const std::string control =
+      limit.control ? RangeText(limit.control->front(), limit.control->back(), "") : "none";
+  Element actuator("td", {{"data-name", kActuator}}, limit.actuator);
+  return Element(
+      "tr", {}, Element("td", {}, FingerText(limit.finger, names)), Element("td", {}, limit.joint),
+      actuator, NamedCell(kTorque, torque), NamedCell(kControl, control),
+      NamedCell(kJointRange, RangeText(Degrees(limit.lower_rad), Degrees(limit.upper_rad), "°")));
+}
+
+/// Return the limits that a replay by a hand assumes, folded, because a hand has many joints.
 std::vector<Element> Limits(const Report& report, FingerNames names) {
   if (!report.settings || !report.settings->hand) return {};
   const std::vector<sim::DriveLimits>& limits = report.settings->hand->limits;
@@ -293,13 +306,16 @@ std::vector<Element> Limits(const Report& report, FingerNames names) {
   std::vector<Element> rows;
   for (const sim::DriveLimits& limit : limits) rows.push_back(LimitsRow(limit, names));
   std::vector<Element> head;
-  for (const char* name : {"Finger", "Joint", "Actuator"}) head.push_back(HeadCell(name, ""));
-  for (const char* name : {"Torque, N·m", "Control range", "Joint range"}) {
-    head.push_back(HeadCell(name));
-  }
-  return {Element("h2", {}, "Limits that the verdict relies on"), ScrolledTable(head, rows),
-          Note("As the hand's model gives them. If it gives no force limit, the replay takes the "
-               "actuator's strength as unlimited. A control is kept in its range.")};
+  for (const char* name : {"Finger", "Joint", kActuator}) head.push_back(HeadCell(name, ""));
+  for (const char* name : {kTorque, kControl, kJointRange}) head.push_back(HeadCell(name));
+  const std::string joints =
+      std::to_string(limits.size()) + (limits.size() == 1 ? " joint" : " joints");
+  return {Element("details", {},
+                  Element("summary", {}, "Limits that the verdict relies on: " + joints),
+                  ScrolledTable(head, rows, "pairs"),
+                  Note("As the hand's model gives them. If it gives no force limit, the replay "
+                       "takes the actuator's strength as unlimited. A control is kept in its "
+                       "range."))};
 }
 
 }  // namespace

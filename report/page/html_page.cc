@@ -72,7 +72,8 @@ Element WithOptions(Element element, std::string_view text) {
   constexpr std::string_view kOfOption = "abcdefghijklmnopqrstuvwxyz0123456789-";
   for (;;) {
     std::size_t begin = text.find("--");
-    while (begin != std::string_view::npos && begin > 0 && text[begin - 1] != ' ') {
+    while (begin != std::string_view::npos && begin > 0 && text[begin - 1] != ' ' &&
+           text[begin - 1] != '(') {
       begin = text.find("--", begin + 1);
     }
     if (begin == std::string_view::npos) break;

@@ -21,6 +21,19 @@ namespace {
 
 using Parts = std::vector<Element>;
 
+/// Style of a page with only a replay: its controls are visible without scrolling, also in the
+/// frame of a notebook.
+constexpr char kViewerPage[] =
+    "main { padding-top: 1rem; } .verdict { margin-bottom: 1rem; }\n"
+    ".viewer .stage { height: max(18rem, calc(100vh - 24rem)); }\n";
+
+/// Legend of the images. In print it is next to the first image.
+constexpr char kLegend[] =
+    "Each picture shows the state after its step. A finger keeps its name or number and its "
+    "colour; a cone is what friction allows, an arrow the force. A ring marks a finger just "
+    "placed, a pale finger with an arrow one that leaves, a dashed line the path of one that "
+    "moved.";
+
 /// The replay is hidden until its script runs. The data are not a script that could run.
 Parts ViewerParts(std::string_view viewer) {
   if (viewer.empty()) return {};
@@ -70,16 +83,16 @@ class Page {
   [[nodiscard]] std::string FormatViewer() const {
     Parts all = ViewerParts(viewer_);
     all.insert(all.begin(), Header());
-    return FormatPage(all);
+    return FormatPage(all, kViewerPage);
   }
 
  private:
-  [[nodiscard]] std::string FormatPage(const Parts& parts) const {
+  [[nodiscard]] std::string FormatPage(const Parts& parts, std::string_view style = {}) const {
     const std::string extent = Extent();
     const std::string title = (report_.passed() ? "Pass" : "Fail") +
                               (extent.empty() ? "" : " " + extent) + ": " + report_.plan_file;
     if (viewer_.empty()) return FormatHtmlPage(title, parts);
-    return FormatHtmlPage(title, parts, PictureSource::kInPage, render::ViewerScripts());
+    return FormatHtmlPage(title, parts, PictureSource::kInPage, render::ViewerScripts(), style);
   }
 
   /// The index page finds the previous and the next plan, so that results of other plans do not
@@ -182,7 +195,7 @@ class Page {
   [[nodiscard]] Element MotionFigure() const {
     StepPlot plot;
     plot.title = "Motion of the object and slip of the fingers, over the steps";
-    plot.y_axis = "metres";
+    plot.y_axis = "length";
     plot.logarithmic = true;
     plot.series = {{"object moved", Values(&StepMeasures::moved_m), PlotMark::kDisc},
                    {"finger slipped", Values(&StepMeasures::slip_m), PlotMark::kRing}};
@@ -231,8 +244,9 @@ class Page {
   /// in place of the replay.
   [[nodiscard]] Parts StillFrame() const {
     if (!still_) return {};
+    Element legend("p", {{"class", "note legend"}}, kLegend);
     return {Element("div", {{"class", failed_ ? "failure" : "still"}},
-                    Parts{Frame(report_.steps[*still_])})};
+                    Parts{Frame(report_.steps[*still_]), legend})};
   }
 
   [[nodiscard]] Parts Frames() const {
@@ -244,11 +258,7 @@ class Page {
     }
     if (frames.empty()) return {};
     return {Element("h2", {}, "Frames"),
-            Note("Each picture shows the state after its step. A finger keeps its name or "
-                 "number and its colour; a cone is what friction allows, an arrow the force. A "
-                 "ring marks a "
-                 "finger just placed, a pale finger with an arrow one that leaves, a dashed line "
-                 "the path of one that moved."),
+            Element("p", {{"class", still_ ? "note screen" : "note"}}, kLegend),
             Element("div", {{"class", "frames"}}, frames)};
   }
 
@@ -347,7 +357,7 @@ std::string FormatPlanHtml(const Report& report, std::string_view viewer) {
                       "decides whether it passes.")};
   for (const Element& part : ViewerParts(viewer)) parts.push_back(part);
   return FormatHtmlPage("Plan: " + report.plan_file, parts, PictureSource::kInPage,
-                        render::ViewerScripts());
+                        render::ViewerScripts(), kViewerPage);
 }
 
 int PagePictureWidth(int count) {

@@ -89,7 +89,7 @@ namespace {
 // Units of the image; at the usual column width, one is about a pixel.
 constexpr double kWidth = 480;
 constexpr double kHeight = 280;
-constexpr double kLeft = 62;
+constexpr double kLeft = 80;
 constexpr double kRight = 12;
 constexpr double kTop = 30;
 constexpr double kBottom = 46;
@@ -190,7 +190,8 @@ class Drawing {
     for (const PlotTick& tick : axis_.ticks) {
       const double y = Y(tick.value);
       svg.Add(Line("grid", kLeft, y, kWidth - kRight, y));
-      svg.Add(Text("end", kLeft - kTickGap, y + kHalfFont, tick.label));
+      const std::string label = plot_.logarithmic ? FormatLength(tick.value, 1) : tick.label;
+      svg.Add(Text("end", kLeft - kTickGap, y + kHalfFont, label));
     }
     const double middle = (kTop + kHeight - kBottom) / 2;
     svg.Add(Text("middle", 0, 0, plot_.y_axis,

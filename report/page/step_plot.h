@@ -61,9 +61,9 @@ struct PlotLimit {
 
 /// A plot over the steps of a plan.
 struct StepPlot {
-  std::string title;   ///< description for readers who cannot see the plot
-  std::string y_axis;  ///< quantity and unit
-  bool logarithmic = false;
+  std::string title;               ///< description for readers who cannot see the plot
+  std::string y_axis;              ///< quantity and unit
+  bool logarithmic = false;        ///< for lengths in metres: each tick has a unit of its own
   std::vector<PlotSeries> series;  ///< one or more series of equal length
   std::optional<PlotLimit> limit;
   /// The step that failed. It is marked, and later steps are shaded.

@@ -23,6 +23,17 @@ std::vector<Element> HeadCells(const std::vector<std::string_view>& names) {
 
 Element NumberCell(std::string_view text) { return Element("td", {{"class", "number"}}, text); }
 
+namespace {
+
+constexpr char kNoStepValue[] = "–";
+
+}  // namespace
+
+Element NamedCell(std::string_view name, std::string_view text) {
+  const char* style = text == kNoStepValue ? "number none" : "number";
+  return Element("td", {{"class", style}, {"data-name", std::string(name)}}, text);
+}
+
 Element ScrolledTable(const std::vector<Element>& head, const std::vector<Element>& rows,
                       std::string_view style) {
   const Attributes attributes =
@@ -133,8 +144,6 @@ std::string Capitalized(std::string text) {
 
 namespace {
 
-constexpr char kNoStepValue[] = "–";
-
 // Names of columns.
 constexpr char kRequired[] = "Required friction";
 constexpr char kMargin[] = "Friction margin";
@@ -164,12 +173,6 @@ std::string Required(const plan::StepCheck& check) {
   const bool decided =
       check.reason == plan::Reason::kNotForceClosure || check.reason == plan::Reason::kNotProved;
   return decided ? "none" : kNoStepValue;
-}
-
-/// Return a cell with the name of its column, which cards of narrow screens show.
-Element NamedCell(std::string_view name, std::string_view text) {
-  const char* style = text == kNoStepValue ? "number none" : "number";
-  return Element("td", {{"class", style}, {"data-name", std::string(name)}}, text);
 }
 
 Element TitleCell(const std::string& title, const std::string& anchor) {

@@ -22,10 +22,16 @@ namespace regrasp::report {
 
 [[nodiscard]] Element NumberCell(std::string_view text);
 
+/// Return a cell with the name of its column, which cards of narrow screens show.
+[[nodiscard]] Element NamedCell(std::string_view name, std::string_view text);
+
 /// Return a table that scrolls by itself if it is wider than the page.
 /// @param head  cells of the first row.
 /// @param rows   elements tr.
-/// @param style  class of the table; may be empty. "cards": narrow screens show a card per row.
+/// @param style  classes of the table; may be empty. "cards" and "pairs": narrow screens show a
+/// card
+///     per row, for the table of steps or for any table whose cells have names (NamedCell).
+///     "narrow": the table is only as wide as its content.
 [[nodiscard]] Element ScrolledTable(const std::vector<Element>& head,
                                     const std::vector<Element>& rows, std::string_view style = "");
 

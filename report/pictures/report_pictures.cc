@@ -28,6 +28,10 @@ constexpr render::Color kGood = {29, 107, 60};
 constexpr render::Color kBad = {179, 38, 30};
 constexpr render::Color kSkipped = {112, 120, 134};
 
+/// Size of texts in the images of a page, relative to those of a frame: pages show images at a
+/// fraction of their size.
+constexpr double kPageText = 1.5;
+
 bool Failed(const ReportStep& step) { return step.verdict() == Verdict::kFail; }
 
 /// @param progress  motion of the object up to the end of the entry; may be empty.
@@ -41,6 +45,14 @@ render::OverviewLabel MakeLabel(const ReportStep& step, const std::string& progr
           : step.skipped ? kSkipped
                          : kGood,
           failed};
+}
+
+/// Return what happens in an entry, without its number and kind, which are in the label above it.
+std::string OverviewCaption(const plan::Plan& plan, const ReportStep& step,
+                            std::span<const std::string> finger_names) {
+  const std::string caption = render::FrameCaption(plan, step.check.index, finger_names);
+  const std::size_t colon = caption.find(": ");
+  return colon == std::string::npos ? "" : caption.substr(colon + 2);
 }
 
 /// Make a line with the verdict.
@@ -198,16 +210,21 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
                      marks ? &*marks : nullptr,
                      view});
   }
-  const auto draw = [&tasks](render::FrameRenderer& drawer, int index) {
+  const double sheet_text = sheet.TextSize();
+  const auto draw = [&](render::FrameRenderer& drawer, int index) {
     const render::FrameTask& task = tasks[index];
-    const std::array texts = {task.text,
-                              render::FrameText{"", task.text.progress, /*is_on_page=*/true}};
+    const std::string title = OverviewCaption(plan, *shown[index].step, frame.finger_names);
+    const char* note = renderer.HasOwnView(index) ? kOwnView : "";
+    // The label in the overview has the progress.
+    const std::array texts = {
+        task.text, render::FrameText{"", task.text.progress, /*is_on_page=*/true, kPageText},
+        render::FrameText{title + note, "", /*is_on_page=*/true, sheet_text}};
     return drawer.RenderWithTexts(*task.snapshot, texts, task.fault, task.view);
   };
   const auto pass_on = [&](int index, const std::vector<render::Image>& images) {
     const ReportStep& step = *shown[index].step;
     take({step.check.index, images[0], images[1], renderer.HasOwnView(index)});
-    sheet.Add(images[0], MakeLabel(step, progress[index]));
+    sheet.Add(images[2], MakeLabel(step, progress[index]));
     options.on_picture(index + 1, count);
   };
   render::DrawInOrder(renderer, count, options.workers, draw, pass_on);

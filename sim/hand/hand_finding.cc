@@ -249,13 +249,13 @@ HandFinding JointUncoupled(HandBody& body, const HandState& state,
                            const HandBody::Uncoupled& uncoupled, double most,
                            const std::string& when) {
   const kinematics::Joint& joint = body.hand().fingers[uncoupled.finger].joints[uncoupled.joint];
-  const std::string off = FormatShort(Degrees(uncoupled.radians)) + "°";
+  const std::string off = FormatPlain(Degrees(uncoupled.radians), 3) + "°";
   HandFinding finding = AtJoint(Reason::kCouplingViolated, body, state, uncoupled.finger,
                                 uncoupled.joint, off + " off its coupling");
   finding.detail = "joint " + joint.name + " of " + FingerText(body.hand(), uncoupled.finger) +
                    " is at " + DegreesText(state.joints[uncoupled.finger][uncoupled.joint]) +
                    After(when) + ": " + off + " from its coupling (" + uncoupled.source +
-                   "), limit " + FormatShort(Degrees(most)) + "°";
+                   "), limit " + FormatPlain(Degrees(most), 3) + "°";
   return finding;
 }
 

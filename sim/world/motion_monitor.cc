@@ -156,7 +156,7 @@ FingerIndex MotionMonitor::finger() const {
 std::string MotionMonitor::MotionText() const {
   const double limit = settings_.tolerance * settings_.diameter_m;
   return "moves " + FormatLengthWithLimit(displacement_, limit).value + " and rotates " +
-         FormatShort(Degrees(rotation_), kAngleDigits) + "°";
+         FormatPlain(Degrees(rotation_), kAngleDigits) + "°";
 }
 
 std::string MotionMonitor::detail() const {

@@ -258,9 +258,22 @@ class EvaluatePage(OutputCase):
         self.browser.resize(390, 844)
         self.addCleanup(self.browser.resize, 1000, 844)
         self.open([grasp("open", 0.0)])
-        reason = self.browser.value("[...document.querySelectorAll('table.data th')]"
-                                    ".find(head => head.textContent.startsWith('reason')).offsetWidth")
-        self.assertGreaterEqual(reason, 150)
+        # Each grasp is a card with the names of the columns. Nothing scrolls sideways.
+        cell = "[...document.querySelectorAll('#grasps td')].find(cell => cell.textContent === 'no-contact')"
+        self.assertGreaterEqual(self.browser.value(cell + ".offsetWidth"), 150)
+        name = f"getComputedStyle({cell}, '::before').content"
+        self.assertIn("reason", self.browser.value(name))
+        wider = "[...document.querySelectorAll('.scroll')].map(e => e.scrollWidth - e.clientWidth)"
+        self.assertEqual(set(self.browser.value(wider)), {0})
+        self.browser.resize(1280, 844)
+        self.assertEqual(self.browser.value(name), "none")
+        # On a desktop, words of usual length are not broken.
+        for text in ("box.obj", "gripper", "no-contact"):
+            found = f"[...document.querySelectorAll('#grasps td')].find(cell => cell.textContent === '{text}')"
+            lines = f"(cell => {{const range = document.createRange(); range.selectNodeContents(cell);" \
+                    f" return range.getClientRects().length;}})({found})"
+            self.assertEqual(self.browser.value(lines), 1, text)
+        self.browser.resize(390, 844)
         self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
 
     def disable_scripts(self):

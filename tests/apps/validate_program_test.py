@@ -233,7 +233,7 @@ class Validate(ProgramCase):
         said = done.stdout.splitlines()
         self.assertRegex(said[0], r"^step 0 \(hold\) fails: off-surface: finger \d is 4 mm off the "
                                   r"surface$")
-        self.assertRegex(said[1], r"^  why: a contact must be on the surface to within 1e-06 of ")
+        self.assertRegex(said[1], r"^  why: a contact must be on the surface to within 0\.0001 % of ")
         self.assertRegex(said[2], r"^  help: .*surface")
         self.assertEqual(said[3], "  more: regrasp validate --explain off-surface")
         self.assertEqual(said[-1], "verdict: fail, " + said[0])

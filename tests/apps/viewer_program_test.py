@@ -121,6 +121,16 @@ class Viewer(ProgramCase):
         self.browser.resize(1000, 1000, media="print")
         self.assertEqual(self.visible(".still img"), 1)
         self.assertEqual(self.visible(".frames img"), frames - 1)
+        # There the legend is only next to the first image.
+        beside = ("(p => [...document.querySelectorAll('.still img, .still .legend')].map("
+                  "e => e.getBoundingClientRect()).every((b, i, all) => b.top < all[0].bottom))()")
+        self.assertTrue(self.browser.value(beside))
+        legends = "[...document.querySelectorAll('p.note')].filter(p => p.textContent.includes('dashed line')"
+        legends += " && p.getClientRects().length).length"
+        self.assertEqual(self.browser.value(legends), 1)
+        self.browser.resize(1000, 1000)
+        self.assertEqual(self.browser.value(legends), 1)
+        self.assertEqual(self.visible(".still .legend"), 0)
 
     def test_captions_of_frames_are_text_on_the_page_and_pixels_only_in_files(self):
         self.validate_cube(size="640x480")
@@ -231,6 +241,7 @@ class Viewer(ProgramCase):
         self.assertAlmostEqual(self.browser.value(angle), turned, delta=1)
 
         self.check_detail()
+        self.check_limits()
         # Without recorded states the hand follows the plan, and a failed check of the hand stops it.
         hand = ["--object", self.model("cube.obj"), "--hand", self.model("hands/ring5.json"), "--plan", "turn.json",
                 "--output", "result", "--frames", "none,viewer=all"]
@@ -244,6 +255,25 @@ class Viewer(ProgramCase):
         failure = "document.getElementById('viewer').viewer.data.failure"
         self.assertGreater(self.browser.value(failure + ".links.length"), 0)
         self.assertIn("apart", self.browser.value("document.querySelector('.tag.mark').textContent"))
+
+    def check_limits(self):
+        """The limits of the joints are folded, a card per joint on a phone, and complete in print."""
+        table = "document.querySelector('table.pairs')"
+        self.browser.resize(1000, 1000)
+        self.assertFalse(self.browser.value(table + ".checkVisibility()"))
+        self.browser.value(table + ".closest('details').open = true")
+        self.assertTrue(self.browser.value(table + ".checkVisibility()"))
+        name = f"getComputedStyle({table}.querySelector('td[data-name]'), '::before').content"
+        self.assertEqual(self.browser.value(name), "none")
+        self.browser.resize(390, 844)
+        self.assertIn("Actuator", self.browser.value(name))
+        wider = f"(e => e.scrollWidth - e.clientWidth)({table}.parentElement)"
+        self.assertEqual(self.browser.value(wider), 0)
+        self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
+        self.browser.value(table + ".closest('details').open = false")
+        self.browser.resize(1000, 1000, media="print")
+        self.assertGreater(self.browser.value(table + ".getBoundingClientRect().height"), 200)
+        self.browser.resize(600, 900)
 
     def check_detail(self):
         """Successive slow frames reduce the detail until the replay pauses."""
@@ -442,6 +472,11 @@ class Viewer(ProgramCase):
         self.assertEqual(self.page().count("<script>"), 0)
         self.open(name="replay.html")
         self.assertTrue(self.browser.value(RUNNING))
+        # In the frame of a notebook the controls are visible without scrolling.
+        self.browser.resize(800, 830)
+        bottom = "document.querySelector('.viewer .switches').getBoundingClientRect().bottom"
+        self.assertLessEqual(self.browser.value(bottom), 830)
+        self.assertGreater(self.browser.value("document.querySelector('.viewer .stage').offsetHeight"), 280)
         self.assertEqual(self.browser.console, [])
         done = self.run_program("--object", self.model("cube.obj"), "--plan", "plan.json", "--frames", "viewer=some")
         self.assertEqual(done.returncode, 2)

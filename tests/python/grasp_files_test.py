@@ -132,9 +132,9 @@ class GraspFilesTest(RegraspCase):
         arrays = {"points": points, "normals": self.normals}
         self.judge("--mu", "0.5", code=1, **arrays)
         line, = [line for line in self.said.splitlines() if line.startswith("off-surface: ")]
-        self.assertIn("grasp 3, contact 1 (the first): off the surface, expected at most 1e-06 of the object's "
+        self.assertIn("grasp 3, contact 1 (the first): off the surface, expected at most 0.0001 % of the object's "
                       "diameter, ", line)
-        self.assertIn("(1.2e-06 in the object file's unit)", line)
+        self.assertIn("(0.0000012 in the object file's unit)", line)
         # The index is that in the file, regardless of inactive contacts.
         active = np.ones((400, 4), bool)
         active[3, 1] = active[7, 0] = active[7, 2] = False

@@ -163,6 +163,10 @@ TEST(ReportTest, TheTableNamesEveryStepTheWeakestAndTheVerdict) {
   EXPECT_THAT(table, HasSubstr("weakest: step 1 (switch)"));
   EXPECT_THAT(table, HasSubstr("undecided: 3"));
   EXPECT_THAT(table, HasSubstr("verdict: pass"));
+  EXPECT_THAT(table, HasSubstr("displacement_mm"));
+  EXPECT_THAT(table, HasSubstr(" 0.002 "));
+  EXPECT_THAT(table, HasSubstr(" <0.001 ")) << "below a micrometre";
+  EXPECT_THAT(table, Not(testing::ContainsRegex("[0-9]e-")));
   const std::string failed = FormatReportTable(MakeFailedReport());
   EXPECT_THAT(failed, HasSubstr("fail: slipped"));
   EXPECT_THAT(failed, StartsWith("step 1 (switch) fails: slipped: finger 2 slid by 1 mm"));

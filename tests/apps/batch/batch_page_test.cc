@@ -57,9 +57,9 @@ TEST(BatchPageTest, ARowHasTheFailedFrameOrThatOfTheWeakestStep) {
   EXPECT_THAT(good, HasSubstr("src=\"good/001_switch.png\""));
   EXPECT_EQ(Count(weak, "href=\"weak/report.html\""), 2u);
   EXPECT_THAT(weak, HasSubstr("<td class=\"outcome\">Fail</td><td>slipped</td><td>" +
-                              report::EscapeMarkup("Step 1 (switch): Finger <2> slipped. "
-                                                   "Why: it stays. Help: more friction.") +
-                              "</td>"));
+                              report::EscapeMarkup("Step 1 (switch): finger <2> slipped.") +
+                              "<details><summary>Cause and remedy</summary>"
+                              "<p>Why: it stays. Help: more friction.</p></details></td>"));
   EXPECT_THAT(good, HasSubstr("<td class=\"outcome\">Pass</td>"));
   EXPECT_THAT(good, HasSubstr("<small>10.4 cm across, 216 g</small>"));
   PlanOutcome first = Passed("first");
@@ -72,8 +72,10 @@ TEST(BatchPageTest, AFailedPlanHasNoMarginUnlessItIsMissing) {
   lacking.report->required_friction_angle_deg = 21.5;
   const std::string page = FormatBatchPage({{Failed("slips"), lacking, Passed("good")}, {}});
   EXPECT_THAT(RowOf(page, "slips"), Not(HasSubstr("in step 1<")));
-  EXPECT_THAT(RowOf(page, "lacking"), HasSubstr("data-value=\"-1.5\">-1.50° in step 1</td>"));
-  EXPECT_THAT(RowOf(page, "good"), HasSubstr("data-value=\"2.75\">2.75° in step 1</td>"));
+  EXPECT_THAT(RowOf(page, "lacking"),
+              HasSubstr("data-value=\"-1.5\">−1.50°<small> in step 1</small></td>"));
+  EXPECT_THAT(RowOf(page, "good"),
+              HasSubstr("data-value=\"2.75\">2.75°<small> in step 1</small></td>"));
 }
 
 TEST(BatchPageTest, WithoutFramesOrReportThereIsNoImageAndNoLinkToAMissingFile) {

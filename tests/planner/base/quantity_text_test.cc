@@ -43,6 +43,10 @@ TEST(QuantityText, APlainNumberHasNoPowerOfTen) {
   EXPECT_EQ(FormatPlain(-123456, 3), "-123000");
   EXPECT_EQ(FormatPlain(99.9, 2), "100");
   EXPECT_EQ(FormatPlain(2.16e8, 3), "2.16e+08");
+  EXPECT_EQ(FormatPlain(5.73e-5, 3), "0.0000573");
+  EXPECT_EQ(FormatPlain(-1.2e-6, 4), "-0.0000012");
+  EXPECT_EQ(FormatPlain(2.8868e-4, 4), "0.0002887");
+  EXPECT_EQ(FormatPlain(9.99996e-4, 4), "0.001");
 }
 
 TEST(QuantityText, OfMassesAndAngles) {

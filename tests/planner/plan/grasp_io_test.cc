@@ -67,16 +67,16 @@ TEST(GraspIo, RefusesContactsThatAreNotOnTheObject) {
   ASSERT_EQ(Complaint(good, cube), "");
   EXPECT_EQ(
       Complaint(R"({"point": [1.001, 0, 0], "normal": [-1, 0, 0]})", cube),
-      "grasp.json: /contacts/0/point: off the surface, expected at most 1e-06 of the object's "
-      "diameter, found 0.0002887 (0.001 in the object file's unit)");
+      "grasp.json: /contacts/0/point: off the surface, expected at most 0.0001 % of the object's "
+      "diameter, found 0.02887 % (0.001 in the object file's unit)");
   EXPECT_EQ(
       Complaint(R"({"point": [0.9, 0, 0]})", cube),
-      "grasp.json: /contacts/0/point: off the surface, expected at most 1e-06 of the object's "
-      "diameter, found 0.02887 (0.1 in the object file's unit)");
+      "grasp.json: /contacts/0/point: off the surface, expected at most 0.0001 % of the object's "
+      "diameter, found 2.887 % (0.1 in the object file's unit)");
   EXPECT_EQ(
       Complaint(R"({"point": [1e9, 0, 0]})", cube),
-      "grasp.json: /contacts/0/point: off the surface, expected at most 1e-06 of the object's "
-      "diameter, found 2.887e+08 (1e+09 in the object file's unit)");
+      "grasp.json: /contacts/0/point: off the surface, expected at most 0.0001 % of the object's "
+      "diameter, found 2.887e+10 % (1e+09 in the object file's unit)");
   EXPECT_EQ(Complaint(good + R"(, {"point": [1, 0, 0], "normal": [1, 0, 0]})", cube)
                 .find("grasp.json: /contacts/1/normal: the normal differs by 180.00°"),
             0u);

@@ -60,13 +60,13 @@ TEST(SurfaceTolerance, IsNeverMoreThanAThousandthOfTheDiameter) {
 }
 
 TEST(SurfaceTolerance, TheTextHasTheDistanceAndTheTolerance) {
-  EXPECT_EQ(
-      OffSurfaceText(MakeCube(), {1.001, 0, 0}),
-      "off the surface, expected at most 1e-06 of the object's diameter, found 0.0002887 (0.001 in "
-      "the object file's unit)");
+  EXPECT_EQ(OffSurfaceText(MakeCube(), {1.001, 0, 0}),
+            "off the surface, expected at most 0.0001 % of the object's diameter, found 0.02887 % "
+            "(0.001 in "
+            "the object file's unit)");
   const std::string far = OffSurfaceText(MakeCube(kHalf, {3, 0, 0}), {3.04, 0, 0});
   EXPECT_THAT(far, testing::HasSubstr("(0.01 in the object file's unit)"));
-  EXPECT_THAT(far, testing::StartsWith("off the surface, expected at most 1.424e-05 of"));
+  EXPECT_THAT(far, testing::StartsWith("off the surface, expected at most 0.001424 % of"));
   EXPECT_THAT(far, testing::HasSubstr("float32"));
 }
 

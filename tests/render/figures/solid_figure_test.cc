@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 
 #include "planner/base/number.h"
@@ -70,6 +71,46 @@ TEST(SolidFigureTest, HiddenEdgesAreDashed) {
   };
   EXPECT_EQ(dashed(view), 3);  // the edges at the hidden corner
   EXPECT_EQ(dashed(no_edges), 0);
+}
+
+/// Return a sphere with a rough surface, like a scan.
+object::Polyhedron MakeScan() {
+  constexpr int kRings = 12, kSides = 24;
+  object::PolygonSoup soup;
+  const auto radius = [](int i, int j) { return 0.03 * (1 + 0.01 * ((7 * i + 5 * j) % 3)); };
+  soup.vertices = {{0, 0, -0.03}, {0, 0, 0.03}};
+  for (int i = 1; i < kRings; ++i) {
+    for (int j = 0; j < kSides; ++j) {
+      const double tilt = M_PI * i / kRings, turn = 2 * M_PI * j / kSides;
+      soup.vertices.push_back(radius(i, j) * Vector3d(std::sin(tilt) * std::cos(turn),
+                                                      std::sin(tilt) * std::sin(turn),
+                                                      -std::cos(tilt)));
+    }
+  }
+  const auto at = [](int i, int j) { return 2 + (i - 1) * kSides + j % kSides; };
+  for (int j = 0; j < kSides; ++j) {
+    soup.facets.push_back({0, at(1, j + 1), at(1, j)});
+    soup.facets.push_back({1, at(kRings - 1, j), at(kRings - 1, j + 1)});
+    for (int i = 1; i + 1 < kRings; ++i) {
+      soup.facets.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      soup.facets.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  }
+  return object::Polyhedron::FromSoup(soup, "scan");
+}
+
+TEST(SolidFigureTest, AScanHasOneAreaAndNoDashedLines) {
+  const object::Polyhedron scan = MakeScan();
+  plan::Plan plan;
+  plan.dimension = 3;
+  plan.friction_angle = Radians(20);
+  plan.initial = {Hold(0, {0.03, 0, 0}, {-1, 0, 0})};
+  const std::string svg = DrawStepFigure(SolidPanels(scan, plan::ProjectPlan(scan, plan), {}), 0,
+                                         {.format = FigureFormat::kSvg});
+  EXPECT_EQ(Count(svg, "stroke-dasharray"), 0);
+  // The area, its outline, the marks of one finger and letters. There are 528 triangles.
+  EXPECT_LT(Count(svg, "<path"), 60);
+  EXPECT_LT(svg.size(), 40'000U);
 }
 
 TEST(SolidFigureTest, AFingerBehindTheSolidIsPaleAndOneBeforeItIsNot) {

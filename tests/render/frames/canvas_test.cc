@@ -108,7 +108,7 @@ Color VeilAndSolid(double height) {
   return CentreOf(DrawOnce(meshes, drawing));
 }
 
-TEST(CanvasTest, ASolidHidesAVeilButItsRims) {
+TEST(CanvasTest, ASolidHidesAVeilButItsXrayRims) {
   const Color over = VeilAndSolid(0.8);
   EXPECT_GT(over.r, 150);
   EXPECT_GT(over.b, 20);
@@ -117,13 +117,17 @@ TEST(CanvasTest, ASolidHidesAVeilButItsRims) {
   const std::vector<ShadedMesh> meshes = {Square(0.9, 0.5), Square(0.4, 0.1), Square(0.9, 0)};
   Drawing drawing;
   drawing.solid = Solid{{{MeshInstance{0}, Color{0, 0, 255}}}, 0.5};
-  drawing.veil = Veil{{{MeshInstance{1}, Color{255, 0, 0}, 0.8}},
-                      {{MeshInstance{2}, Color{0, 255, 0}, 0.8}},
-                      {},
-                      {}};
-  const Image image = DrawOnce(meshes, drawing);
-  EXPECT_EQ(CentreOf(image).g, 0) << "behind the veil";
-  EXPECT_GT(image.rgb[3 * (std::size_t{kSide / 2} * kSide + 8) + 1], 30) << "the rim";
+  const std::vector<Shape> link = {{MeshInstance{1}, Color{255, 0, 0}, 0.8}};
+  const std::vector<Shape> shell = {{MeshInstance{2}, Color{0, 255, 0}, 0.8}};
+  const auto green_at_rim = [](const Image& image) {
+    return image.rgb[3 * (std::size_t{kSide / 2} * kSide + 8) + 1];
+  };
+  drawing.veil = Veil{link, {}, {}, {}, shell};
+  const Image xray = DrawOnce(meshes, drawing);
+  EXPECT_EQ(CentreOf(xray).g, 0) << "behind the veil";
+  EXPECT_GT(green_at_rim(xray), 30);
+  drawing.veil = Veil{link, shell};
+  EXPECT_EQ(green_at_rim(DrawOnce(meshes, drawing)), 0);
 }
 
 TEST(CanvasTest, AMeshCanHaveItsOwnColours) {

@@ -76,7 +76,7 @@ TEST_F(FrameSequenceTest, AnImageOfAPageHasNoHeadingAndLargerLabels) {
     }
     return red;
   };
-  const FrameText in_file, on_page = {"", "", /*is_on_page=*/true};
+  const FrameText in_file, on_page = {"", "", /*is_on_page=*/true, /*size=*/1.5};
   EXPECT_GT(count_red(in_file, &marks), count_red(in_file, nullptr) + 50);
   EXPECT_EQ(count_red(on_page, &marks), count_red(on_page, nullptr));
   const Image small = renderer_.Render(snapshots_[1], in_file);

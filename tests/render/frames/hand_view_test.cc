@@ -91,6 +91,22 @@ TEST(HandFigure, AFingertipInContactHasTheColourOfItsFinger) {
   EXPECT_TRUE(IsGrey(ColorsOf(gone)[2]));
 }
 
+TEST(HandFigure, OnlyRimsOfFingertipsInContactShineThroughTheObject) {
+  const auto rims = [](const plan::Snapshot& snapshot, bool in_contact) {
+    std::vector<int> meshes;
+    for (const Shape& shape : HandFigure(Hand(), Frame()).Rims(snapshot, in_contact, 0)) {
+      meshes.push_back(std::get<MeshInstance>(shape.form).mesh);
+    }
+    return meshes;
+  };
+  EXPECT_EQ(rims(Holding(), true), std::vector{4});
+  EXPECT_EQ(rims(Holding(), false), (std::vector{0, 2}));
+  plan::Snapshot gone = Holding();
+  gone.fingers.front().role = plan::FingerRole::kReleased;
+  EXPECT_TRUE(rims(gone, true).empty());
+  EXPECT_EQ(rims(gone, false).size(), 3U);
+}
+
 TEST(HandFigure, LinksAtFaultAreRedAndNoOthers) {
   const auto red = [](const std::vector<plan::HandLink>& at_fault) {
     std::vector<bool> is_red;

@@ -121,5 +121,12 @@ TEST(OverviewImageTest, UnannouncedImagesAreRefused) {
   EXPECT_THROW(sheet.Add(MakeImage(64, 48), {}), std::invalid_argument);
 }
 
+TEST(OverviewImageTest, TextsInSmallImagesAreLarger) {
+  const auto size = [](int count) { return OverviewImage(count, 1280, 960).TextSize(); };
+  EXPECT_EQ(size(1), 1);
+  EXPECT_GT(size(25), 1.5);
+  EXPECT_LE(size(400), 2.5);
+}
+
 }  // namespace overview_image_test
 }  // namespace regrasp::render

@@ -1,5 +1,6 @@
 #include "render/frames/step_scene.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,7 +61,11 @@ TEST(StepSceneTest, AGlbFileHasAllPartsForWhoeverReadsIt) {
   ASSERT_EQ(scene->mNumMeshes, parts.size());
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     EXPECT_EQ(scene->mMeshes[i]->mNumFaces, parts[i].mesh.triangles.size()) << parts[i].name;
+    aiString mode;
+    scene->mMaterials[scene->mMeshes[i]->mMaterialIndex]->Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
+    EXPECT_STREQ(mode.C_Str(), parts[i].opacity < 1 ? "BLEND" : "OPAQUE") << parts[i].name;
   }
+  EXPECT_LT(parts[0].opacity, 1) << "the object";
   // Triangles share their vertices: about two triangles per vertex of a round fingertip.
   EXPECT_LT(scene->mMeshes[1]->mNumVertices, parts[1].mesh.triangles.size());
   // The z axis becomes the y axis.

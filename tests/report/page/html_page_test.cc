@@ -46,6 +46,7 @@ TEST(HtmlPageTest, NamesOfOptionsDoNotBreakAcrossLines) {
   // Other words with hyphens may break.
   EXPECT_EQ(text("well--known force-closure"), "<p>well--known force-closure</p>");
   EXPECT_EQ(text("--seed"), "<p><span class=\"option\">--seed</span></p>");
+  EXPECT_EQ(text("(--seed 3)"), "<p>(<span class=\"option\">--seed</span> 3)</p>");
   EXPECT_EQ(text(""), "<p></p>");
 }
 

@@ -43,6 +43,12 @@ TEST(StepPlotTest, EveryValueHasAMarkAndNoneWhereThereIsNoValue) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(StepPlotTest, TicksOfLengthsHaveAUnit) {
+  const std::string svg = FormatStepPlot(MakePlot());
+  for (const char* length : {">1 nm<", ">1 µm<", ">100 µm<"}) EXPECT_THAT(svg, HasSubstr(length));
+  EXPECT_THAT(svg, Not(HasSubstr("10⁻")));
+}
+
 TEST(StepPlotTest, TextsAreEscapedAndTheLimitIsNamed) {
   const std::string svg = FormatStepPlot(MakePlot());
   EXPECT_THAT(svg, HasSubstr("Motion &lt;over&gt; the steps"));
