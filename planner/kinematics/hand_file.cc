@@ -26,10 +26,15 @@ using Eigen::Vector3d;
 constexpr int kWorldBody = 0;
 /// Distance in the reference configuration, metres, below which shapes are near by construction.
 constexpr double kNearAtRest = 1e-3;
-/// Number of points above which a shape is replaced for planning, and its largest growth, metres.
-/// With the hulls of meshes, of up to 500 points, a search is several times slower.
+/// Largest growth of a shape with more than kFewPoints points, metres, and of that for planning.
+/// Hulls of meshes have thousands of points. They make replays and searches several times slower.
 constexpr std::size_t kFewPoints = 32;
+constexpr double kShapeTolerance = 5e-5;
 constexpr double kEnclosingTolerance = 3e-4;
+
+ConvexShape WithFewerPoints(const ConvexShape& shape, double tolerance) {
+  return shape.points.size() <= kFewPoints ? shape : collision::Enclosing(shape, tolerance);
+}
 
 /// Builder of a HandModel from a description and a compiled model.
 /// All positions are those of the reference configuration, in the palm's frame.
@@ -271,10 +276,8 @@ void HandBuilder::AddGeom(int geom) {
   LinkShape link;
   link.link = BodyName(model_, body);
   link.after = place.after;
-  link.shape = Moved(pose, shape);
-  link.enclosing = link.shape.points.size() <= kFewPoints
-                       ? link.shape
-                       : collision::Enclosing(link.shape, kEnclosingTolerance);
+  link.shape = WithFewerPoints(Moved(pose, shape), kShapeTolerance);
+  link.enclosing = WithFewerPoints(link.shape, kEnclosingTolerance);
   if (is_covered) link.role = LinkShape::Role::kCovered;
   (place.after == 0 ? hand_.palm : hand_.fingers[place.finger].shapes).push_back(std::move(link));
 }
