@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <queue>
+#include <utility>
 
 namespace regrasp::collision {
 
@@ -27,19 +29,30 @@ ConvexShape Enclosing(const ConvexShape& shape, double tolerance) {
       }
     }
   }
-  // Distances from the hull of fewer points, which are upper bounds.
-  std::vector<double> off(shape.points.size(), std::numeric_limits<double>::infinity());
-  while (true) {
-    const auto farthest = std::ranges::max_element(off);
-    const Vector3d& point = shape.points[farthest - off.begin()];
-    const double before = *farthest;
-    *farthest = Distance({{point}, 0}, enclosing).upper;
-    if (*farthest < before && *farthest < std::ranges::max(off)) continue;
-    if (*farthest <= tolerance) break;
-    enclosing.points.push_back(point);
-    *farthest = 0;
+  // Distances of points from the hull when it had fewer points, which are upper bounds.
+  struct Bound {
+    double distance;
+    std::size_t point;
+    auto operator<=>(const Bound&) const = default;
+  };
+  std::vector<Bound> bounds;
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    bounds.push_back({std::numeric_limits<double>::infinity(), i});
   }
-  enclosing.radius = shape.radius + std::ranges::max(off);
+  std::priority_queue<Bound> farthest(std::less<Bound>(), std::move(bounds));
+  while (farthest.top().distance > tolerance) {
+    const Bound before = farthest.top();
+    farthest.pop();
+    const Vector3d& point = shape.points[before.point];
+    const double distance = Distance({{point}, 0}, enclosing).upper;
+    const bool is_farthest = farthest.empty() || distance >= farthest.top().distance;
+    if (distance > tolerance && is_farthest) {
+      enclosing.points.push_back(point);
+    } else {
+      farthest.push({distance, before.point});
+    }
+  }
+  enclosing.radius = shape.radius + farthest.top().distance;
   return enclosing;
 }
 

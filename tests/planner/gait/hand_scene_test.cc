@@ -7,6 +7,7 @@
 #include "planner/base/random.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/kinematics/inspect_hand.h"
+#include "planner/kinematics/mujoco_model.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/solids.h"
 #include "tests/planner/kinematics/ring_model.h"
