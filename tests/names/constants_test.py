@@ -10,8 +10,8 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv[1])
 # Sentinels, texts, the layout of seeds and the measurements of failure causes are no parameters of the method.
-NO_PARAMETERS = {"kFewestGrasps", "kGripSamples", "kMostlyColliding", "kMostlyLost", "kNone", "kNoNode", "kRating",
-                 "kReachSteps", "kRollingShift", "kSimulating", "kStreamShift", "kWidthDirections"}
+NO_PARAMETERS = {"kContained", "kFewestGrasps", "kGripSamples", "kMostlyColliding", "kMostlyLost", "kNone", "kNoNode", "kRating",
+                 "kReachSteps", "kRollingShift", "kSimulating", "kStreamShift"}
 
 
 def defined(text):

@@ -133,7 +133,7 @@ TEST_F(PenetrationTest, GeometryOfAFingertipIsCheckedAgainstOtherLinks) {
   EXPECT_THAT(collisions(plain), testing::IsEmpty());
   const std::vector<std::string> found = collisions(with_rod);
   EXPECT_THAT(found, testing::Not(testing::IsEmpty()));
-  EXPECT_THAT(found, testing::Each(HasSubstr("touches finger0_distal of finger 0 (finger0)")));
+  EXPECT_THAT(found, testing::Each(HasSubstr("finger0_distal of finger 0 (finger0) touches")));
 }
 
 }  // namespace penetration_test

@@ -58,6 +58,15 @@ kinematics::HandFile HandWithTips(const std::string& tip, const std::string& cap
   return file;
 }
 
+/// Return the hand with the shapes of its compiled model.
+kinematics::HandFile WithItsShapes(kinematics::HandFile file) {
+  const kinematics::HandModel hand =
+      kinematics::BuildHand(file.description, *file.compiled, "ring5.json");
+  file.hand.fingers = hand.fingers;
+  file.hand.ignored = hand.ignored;
+  return file;
+}
+
 constexpr char kBall[] = R"(type="sphere" size="0.01" pos="0 0 0.024")";
 constexpr char kThinCapsule[] = R"(type="capsule" size="0.004" fromto="0 0 0 0 0 0.012")";
 
@@ -172,8 +181,8 @@ TEST(TipGeometryTest, WhereTheModelHasTheBallBothReplaysAreTheSame) {
 }
 
 TEST(TipGeometryTest, ASmallerTipIsPressedUntilItTouches) {
-  const kinematics::HandFile small =
-      HandWithTips(R"(type="sphere" size="0.0085" pos="0 0 0.024")", kThinCapsule);
+  const kinematics::HandFile small = WithItsShapes(
+      HandWithTips(R"(type="sphere" size="0.0085" pos="0 0 0.024")", kThinCapsule));
   const Replayed ball = ReplayWith(small, TipShape::kBall);
   const Replayed own = ReplayWith(small, TipShape::kGeometry);
   EXPECT_EQ(own.reason(), Reason::kNone) << own.detail();
@@ -185,8 +194,8 @@ TEST(TipGeometryTest, ASmallerTipIsPressedUntilItTouches) {
 TEST(TipGeometryTest, ABoxStandsOnItsCornersAndEdges) {
   // The box contains the sphere, and extends beyond it by 4 mm at its edges and 7 mm at its
   // corners.
-  const kinematics::HandFile boxes =
-      HandWithTips(R"(type="box" size="0.01 0.01 0.01" pos="0 0 0.024")", kThinCapsule);
+  const kinematics::HandFile boxes = WithItsShapes(
+      HandWithTips(R"(type="box" size="0.01 0.01 0.01" pos="0 0 0.024")", kThinCapsule));
   const Replayed ball = ReplayWith(boxes, TipShape::kBall);
   const Replayed own = ReplayWith(boxes, TipShape::kGeometry);
   EXPECT_EQ(ball.reason(), Reason::kTipPenetrates);
