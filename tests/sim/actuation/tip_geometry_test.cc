@@ -181,8 +181,8 @@ TEST(TipGeometryTest, WhereTheModelHasTheBallBothReplaysAreTheSame) {
 }
 
 TEST(TipGeometryTest, ASmallerTipIsPressedUntilItTouches) {
-  const kinematics::HandFile small = WithItsShapes(
-      HandWithTips(R"(type="sphere" size="0.0085" pos="0 0 0.024")", kThinCapsule));
+  const kinematics::HandFile small =
+      WithItsShapes(HandWithTips(R"(type="sphere" size="0.0085" pos="0 0 0.024")", kThinCapsule));
   const Replayed ball = ReplayWith(small, TipShape::kBall);
   const Replayed own = ReplayWith(small, TipShape::kGeometry);
   EXPECT_EQ(own.reason(), Reason::kNone) << own.detail();
