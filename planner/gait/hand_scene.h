@@ -73,7 +73,8 @@ class HandScene {
   [[nodiscard]] bool KeepsOffHand(const PlacedFinger& placed, Motion motion = {}) const;
   /// Subset of the links of a finger.
   enum class Links { kAll, kTip, kBehindTip };
-  /// Return whether the selected links of a finger are clear of the object.
+  /// Return whether the selected links of a finger are clear of the object. The collision geometry
+  /// that a fingertip sphere replaces does not count.
   [[nodiscard]] bool KeepsOffObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                     TipContact tip, Motion motion = {},
                                     Links links = Links::kAll) const;
