@@ -26,7 +26,8 @@ using Eigen::Vector3d;
 constexpr int kWorldBody = 0;
 /// Distance in the reference configuration, metres, below which shapes are near by construction.
 constexpr double kNearAtRest = 1e-3;
-/// Largest growth of a shape with more than kFewPoints points, metres, and of that for planning.
+/// Number of points above which shapes are replaced by enclosing ones with fewer points. Largest
+/// growth, metres: of the shape itself, and beyond that for planning.
 /// Hulls of meshes have thousands of points. They make replays and searches several times slower.
 constexpr std::size_t kFewPoints = 32;
 constexpr double kShapeTolerance = 5e-5;

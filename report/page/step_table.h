@@ -28,10 +28,9 @@ namespace regrasp::report {
 /// Return a table that scrolls by itself if it is wider than the page.
 /// @param head  cells of the first row.
 /// @param rows   elements tr.
-/// @param style  classes of the table; may be empty. "cards" and "pairs": narrow screens show a
-/// card
-///     per row, for the table of steps or for any table whose cells have names (NamedCell).
-///     "narrow": the table is only as wide as its content.
+/// @param style  classes of the table; may be empty. On narrow screens, "cards" (for the table of
+///     steps) and "pairs" (for tables of NamedCell) show a card per row. With "narrow" the table is
+///     only as wide as its content.
 [[nodiscard]] Element ScrolledTable(const std::vector<Element>& head,
                                     const std::vector<Element>& rows, std::string_view style = "");
 
