@@ -201,6 +201,37 @@ TEST_F(CoupledHandTest, AJointOffItsCouplingIsNamed) {
   expect_fails("coupling of joint finger2_joint3 in the hand's file");
 }
 
+/// Fixture of the ring hand, whose fingertip bodies have another geom.
+class CheckedTipGeometryTest : public FolderTest {
+ protected:
+  std::vector<plan::HandFault> FaultsWith(const std::string& geom) {
+    std::string model = ReadFile(ProjectPath("models/hands/ring4.xml"));
+    for (int finger = 0; finger < 4; ++finger) {
+      const std::string tip = "<geom name=\"finger" + std::to_string(finger) + "_tip\"";
+      const std::size_t at = model.find(tip);
+      EXPECT_NE(at, std::string::npos);
+      model.insert(at, geom);
+    }
+    Write("ring4.xml", model);
+    const kinematics::HandFile file =
+        kinematics::ReadHandFile(Write("ring4.json", ReadFile(kHand)));
+    plan::Plan plan = GoodPlan();
+    plan.hand->sha256 = file.hand.sha256;
+    return CheckHand(file, Cube(), plan);
+  }
+};
+
+/// The plate is in the object at every contact, which only the replay judges. Plates of two fingers
+/// at one cube touch each other.
+TEST_F(CheckedTipGeometryTest, GeometryOfFingertipsMustNotTouchOtherLinks) {
+  EXPECT_THAT(FaultsWith(R"(<geom size="0.009" pos="0 0 0.02"/>)"), testing::IsEmpty());
+  EXPECT_THAT(FaultsWith(R"(<geom size="0.011" pos="0 0 0.024"/>)"), testing::IsEmpty());
+  const auto faults = FaultsWith(R"(<geom type="box" size="0.04 0.04 0.004" pos="0 0 0.02"/>)");
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults[0].reason, Reason::kHandCollides);
+  EXPECT_THAT(faults[0].detail, testing::HasSubstr("_distal of finger "));
+}
+
 TEST(CheckHandTest, AFileReadAgainPassesToo) {
   for (plan::Plan plan : {GoodPlan(), SlidingPlan()}) {
     plan.object_sha256 = std::string(64, '0');
