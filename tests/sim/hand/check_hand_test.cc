@@ -221,7 +221,7 @@ class CheckedTipGeometryTest : public FolderTest {
   }
 };
 
-/// The plate is in the object at every contact, which only the replay judges. Plates of two fingers
+/// The plate is in the object at every contact, which only the replay limits. Plates of two fingers
 /// at one cube touch each other.
 TEST_F(CheckedTipGeometryTest, GeometryOfFingertipsMustNotTouchOtherLinks) {
   EXPECT_THAT(FaultsWith(R"(<geom size="0.009" pos="0 0 0.02"/>)"), testing::IsEmpty());
