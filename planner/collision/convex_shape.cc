@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -17,6 +18,10 @@ ConvexShape Moved(const Eigen::Isometry3d& pose, const ConvexShape& shape) {
   ConvexShape moved = shape;
   for (Vector3d& point : moved.points) point = pose * point;
   return moved;
+}
+
+PosedShape Moved(const Eigen::Isometry3d& motion, const PosedShape& posed) {
+  return {posed.shape, motion * posed.pose, {motion * posed.sphere.centre, posed.sphere.radius}};
 }
 
 ConvexShape Enclosing(const ConvexShape& shape, double tolerance) {
@@ -363,14 +368,28 @@ double SizeOf(Points points) {
   return size;
 }
 
-}  // namespace
+/// Points at a pose.
+struct PosedPoints {
+  Points points;
+  const Eigen::Isometry3d& pose;
+};
 
-HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
-  const double slack = kRounding * (SizeOf(a) + SizeOf(b));
+using collision::Farthest;
+
+Vector3d Farthest(const PosedPoints& posed, const Vector3d& direction) {
+  const Vector3d turned = posed.pose.linear().transpose() * direction;
+  return posed.pose * Farthest(posed.points, turned);
+}
+
+/// Compute HullDistance.
+/// @param nearest  point of the difference a − b at which the search begins.
+/// @param slack    bound on the rounding error of distances.
+template <typename Hull>
+HullBounds DistanceFrom(Vector3d nearest, Points a, const Hull& b, double slack,
+                        std::optional<double> decided) {
   HullBounds bounds;
   HullSimplex simplex;
   // Search for the point of the difference a − b nearest to the origin.
-  Vector3d nearest = a.front() - b.front();
   simplex.points[0] = nearest;
   simplex.size = 1;
   bounds.upper = nearest.norm();
@@ -393,6 +412,31 @@ HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
     bounds.upper = upper;
   }
   return bounds;
+}
+
+}  // namespace
+
+HullBounds HullDistance(Points a, Points b, std::optional<double> decided) {
+  const double slack = kRounding * (SizeOf(a) + SizeOf(b));
+  return DistanceFrom(a.front() - b.front(), a, b, slack, decided);
+}
+
+bool AreApart(const PosedShape& a, const PosedShape& b, double distance) {
+  const Vector3d between = a.sphere.centre - b.sphere.centre;
+  const double radii = a.sphere.radius + b.sphere.radius;
+  const double far = radii + distance;
+  if (between.squaredNorm() > far * far) return true;
+  // In the frame of `a`, only points of `b` that matter are moved.
+  const Eigen::Isometry3d to_a = a.pose.inverse();
+  const Eigen::Isometry3d b_to_a = to_a * b.pose;
+  const Vector3d direction = to_a.linear() * between;
+  const double size = (to_a * a.sphere.centre).norm() + direction.norm() + radii;
+  const double slack = 4 * kRounding * std::numbers::sqrt3 * size;
+  const double enough = distance + a.shape->radius + b.shape->radius;
+  const PosedPoints of_b{b.shape->points, b_to_a};
+  const Vector3d support = Farthest(a.shape->points, -direction) - Farthest(of_b, direction);
+  if (support.dot(direction) > (enough + slack) * direction.norm()) return true;
+  return DistanceFrom(support, a.shape->points, of_b, slack, enough).lower > enough;
 }
 
 bool AreApartAlong(Points a, Points b, const Vector3d& direction, double distance) {

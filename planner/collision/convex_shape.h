@@ -35,6 +35,20 @@ struct BoundingSphere {
 };
 [[nodiscard]] BoundingSphere BoundingSphereOf(const ConvexShape& shape);
 
+/// Shape at a pose. The shape itself is not moved: it outlives this object.
+struct PosedShape {
+  const ConvexShape* shape = nullptr;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  BoundingSphere sphere;  ///< bounding sphere of the shape at the pose
+};
+
+/// Return a posed shape after another motion.
+[[nodiscard]] PosedShape Moved(const Eigen::Isometry3d& motion, const PosedShape& posed);
+/// Return the shape itself at the pose.
+[[nodiscard]] inline ConvexShape ShapeOf(const PosedShape& posed) {
+  return Moved(posed.pose, *posed.shape);
+}
+
 /// Certified bounds of the distance of two shapes; 0 if they or their hulls overlap.
 struct DistanceBounds {
   double lower = 0;
@@ -53,6 +67,11 @@ struct DistanceBounds {
 /// Return true only if the shapes are certainly farther apart than `distance` ≥ 0.
 /// This is faster than Distance because it stops when the answer is known.
 [[nodiscard]] bool AreApart(const ConvexShape& a, const ConvexShape& b, double distance);
+
+/// Return true only if two posed shapes are certainly farther apart than `distance` ≥ 0.
+/// This is faster than moving the shapes, because most pairs are decided by their bounding spheres
+/// or a few points.
+[[nodiscard]] bool AreApart(const PosedShape& a, const PosedShape& b, double distance);
 
 /// Return the point that is farthest in a direction, the first of several equally far.
 /// @param points  at least one point.

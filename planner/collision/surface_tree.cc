@@ -47,7 +47,9 @@ void VisitNear(const object::TriangleTree& tree, const ConvexShape& shape, doubl
 }  // namespace
 
 SurfaceTree::SurfaceTree(const object::Polyhedron& solid, double scale)
-    : tree_(TrianglesOf(solid, scale), kLeafTriangles) {}
+    : tree_(TrianglesOf(solid, scale), kLeafTriangles) {
+  for (const Vector3d& vertex : solid.vertices()) box_.extend(scale * vertex);
+}
 
 double SurfaceTree::DistanceFrom(const ConvexShape& shape, double limit) const {
   double within = limit + shape.radius;
@@ -69,6 +71,12 @@ bool SurfaceTree::IsApart(const ConvexShape& shape, double distance) const {
     direction = bounds.direction;
   });
   return within >= 0;
+}
+
+bool SurfaceTree::IsApart(const PosedShape& posed, double distance) const {
+  const double far = posed.sphere.radius + distance;
+  if (box_.squaredExteriorDistance(posed.sphere.centre) > far * far) return true;
+  return IsApart(ShapeOf(posed), distance);
 }
 
 double SurfaceTree::ReachFrom(const Vector3d& point) const {

@@ -25,11 +25,15 @@ class SurfaceTree {
   /// Return true only if the shape is certainly farther from the surface than `distance`.
   [[nodiscard]] bool IsApart(const ConvexShape& shape, double distance) const;
 
+  /// Return true only if a posed shape is certainly farther from the surface than `distance`.
+  [[nodiscard]] bool IsApart(const PosedShape& posed, double distance) const;
+
   /// Return the largest distance of a vertex from a point, metres.
   [[nodiscard]] double ReachFrom(const Eigen::Vector3d& point) const;
 
  private:
   object::TriangleTree tree_;  ///< in metres
+  Eigen::AlignedBox3d box_;    ///< in metres
 };
 
 }  // namespace regrasp::collision

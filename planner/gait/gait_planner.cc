@@ -268,7 +268,9 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.status = PlanResult::Status::kNoSequence;
     result.message = found.message;
     if (found.execution && !found.execution->is_cut_short) result.trial = found.execution->reason;
-    if (request.deadline.IsOver()) result.message += "; time limit reached";
+    // A search that is given up states its causes, the time limit among them.
+    const bool states_limit = result.message.find("time-limit (") != std::string::npos;
+    if (request.deadline.IsOver() && !states_limit) result.message += "; time limit reached";
     if (explains) {
       if (time) request.deadline = request.deadline.In(*time);
       result.message += "; " + ExplainGait(request);

@@ -11,6 +11,7 @@ namespace regrasp::gait {
 using collision::AreApart;
 using collision::BoundingSphere;
 using collision::ConvexShape;
+using collision::PosedShape;
 using Eigen::Isometry3d;
 using kinematics::Finger;
 using kinematics::LinkShape;
@@ -19,13 +20,6 @@ namespace {
 
 /// Fraction of a joint range at each end that sampled configurations avoid.
 constexpr double kLimitClearance = 0.02;
-
-bool AreApart(const ConvexShape& a, const BoundingSphere& ball_a, const ConvexShape& b,
-              const BoundingSphere& ball_b, double distance) {
-  const double apart = ball_a.radius + ball_b.radius + distance;
-  if ((ball_a.centre - ball_b.centre).squaredNorm() > apart * apart) return true;
-  return collision::AreApart(a, b, distance);
-}
 
 /// Maximum change of a joint angle between adjacent grid nodes while a finger keeps its contact,
 /// radians. A larger change indicates another branch of the inverse kinematics.
@@ -72,7 +66,9 @@ HandScene::HandScene(const kinematics::HandModel& hand, const collision::Surface
       redundant_.back().push_back(IsRedundant(link, finger.shapes));
     }
   }
-  for (const LinkShape& link : hand.palm) palm_balls_.push_back(BoundingSphereOf(link.enclosing));
+  for (const LinkShape& link : hand.palm) {
+    palm_.push_back({&link.enclosing, Isometry3d::Identity(), BoundingSphereOf(link.enclosing)});
+  }
   for (FingerIndex a{0}; a < std::ssize(hand.fingers); ++a) {
     with_palm_.push_back(CheckedPairs(a, {}));
     with_fingers_.emplace_back();
@@ -124,11 +120,11 @@ PlacedFinger HandScene::Place(FingerIndex finger, const JointConfiguration& conf
   const kinematics::JointFrames frames = kinematics::FramesOf(chain, configuration);
   PlacedFinger placed;
   placed.finger = finger;
+  placed.shapes.reserve(chain.shapes.size());
   for (const LinkShape& link : chain.shapes) {
     const Isometry3d& frame = frames[link.after - 1];
     const BoundingSphere& ball = balls_[finger][placed.shapes.size()];
-    placed.shapes.push_back(collision::Moved(frame, link.enclosing));
-    placed.balls.push_back({frame * ball.centre, ball.radius});
+    placed.shapes.push_back({&link.enclosing, frame, {frame * ball.centre, ball.radius}});
   }
   return placed;
 }
@@ -137,9 +133,7 @@ bool HandScene::KeepsOffHand(const PlacedFinger& placed, Motion motion) const {
   const double needed = Needed(motion);
   return std::ranges::all_of(with_palm_[placed.finger],
                              [&](const ShapePair& pair) {
-                               return AreApart(placed.shapes[pair.a], placed.balls[pair.a],
-                                               hand_.palm[pair.b].enclosing, palm_balls_[pair.b],
-                                               needed);
+                               return AreApart(placed.shapes[pair.a], palm_[pair.b], needed);
                              }) &&
          KeepApart(placed, placed, motion);
 }
@@ -154,13 +148,29 @@ bool HandScene::KeepsOffObject(const PlacedFinger& placed, const Isometry3d& pos
     if (shapes[i].role == LinkShape::Role::kCovered) continue;
     const bool is_tip = shapes[i].role == LinkShape::Role::kTip;
     if (links != Links::kAll && is_tip != (links == Links::kTip)) continue;
-    ConvexShape shape = collision::Moved(to_object, placed.shapes[i]);
-    double distance = Needed(motion);
-    if (is_tip && tip == TipContact::kTouching) {
-      shape.radius = std::max(0.0, shape.radius - kTipDepth);
-      distance = motion.value_or(0);
+    const PosedShape posed = Moved(to_object, placed.shapes[i]);
+    if (!is_tip || tip == TipContact::kFree) {
+      if (!surface_.IsApart(posed, Needed(motion))) return false;
+      continue;
     }
-    if (!surface_.IsApart(shape, distance)) return false;
+    ConvexShape shape = ShapeOf(posed);
+    shape.radius = std::max(0.0, shape.radius - kTipDepth);
+    if (!surface_.IsApart(shape, motion.value_or(0))) return false;
+  }
+  return true;
+}
+
+bool HandScene::IsShallow(const PlacedFinger& placed, const Isometry3d& pose,
+                          const Eigen::Vector3d& inward) const {
+  const Finger& finger = hand_.fingers[placed.finger];
+  // The depth along the normal is the shortest translation that moves a shape out.
+  const Isometry3d out =
+      pose.inverse() * Eigen::Translation3d(-kCoveredDepth * finger.tip.radius * inward);
+  for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
+    if (finger.shapes[i].role != LinkShape::Role::kCovered || redundant_[placed.finger][i]) {
+      continue;
+    }
+    if (!surface_.IsApart(Moved(out, placed.shapes[i]), 0)) return false;
   }
   return true;
 }
@@ -170,7 +180,7 @@ double HandScene::DistanceFromObject(const PlacedFinger& placed, const Isometry3
   const Isometry3d to_object = pose.inverse();
   for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
     if (redundant_[placed.finger][i]) continue;
-    const ConvexShape shape = collision::Moved(to_object, placed.shapes[i]);
+    const ConvexShape shape = ShapeOf(Moved(to_object, placed.shapes[i]));
     limit = std::min(limit, surface_.DistanceFrom(shape, limit));
   }
   return limit;
@@ -179,14 +189,14 @@ double HandScene::DistanceFromObject(const PlacedFinger& placed, const Isometry3
 bool HandScene::KeepApart(const PlacedFinger& a, const PlacedFinger& b, Motion motion) const {
   const double needed = Needed(motion);
   return std::ranges::all_of(with_fingers_[a.finger][b.finger], [&](const ShapePair& pair) {
-    return AreApart(a.shapes[pair.a], a.balls[pair.a], b.shapes[pair.b], b.balls[pair.b], needed);
+    return AreApart(a.shapes[pair.a], b.shapes[pair.b], needed);
   });
 }
 
 bool HandScene::KeepsOffPalm(const Isometry3d& pose, Motion motion) const {
   const Isometry3d to_object = pose.inverse();
-  return std::ranges::all_of(hand_.palm, [&](const LinkShape& link) {
-    return surface_.IsApart(collision::Moved(to_object, link.enclosing), Needed(motion));
+  return std::ranges::all_of(palm_, [&](const PosedShape& link) {
+    return surface_.IsApart(Moved(to_object, link), Needed(motion));
   });
 }
 
@@ -219,6 +229,7 @@ std::optional<JointConfiguration> ReachMap::Compute(FingerIndex finger, int poin
   const PlacedFinger placed = scene_.Place(finger, *configuration);
   if (!scene_.KeepsOffHand(placed)) return std::nullopt;
   if (!scene_.KeepsOffObject(placed, pose, TipContact::kTouching)) return std::nullopt;
+  if (!scene_.IsShallow(placed, pose, target.towards)) return std::nullopt;
   return configuration;
 }
 

@@ -29,11 +29,14 @@ enum class TipContact {
 /// Contacts are exact, but joint configurations certified between two samples are not.
 inline constexpr double kTipDepth = 2e-4;
 
+/// Largest depth in the object of the geometry that a fingertip sphere replaces, as a fraction of
+/// the sphere's radius. The replay permits 0.5; fingertips tilt a little during execution.
+inline constexpr double kCoveredDepth = 0.4;
+
 /// Collision shapes of a finger in one joint configuration, in the palm's frame.
 struct PlacedFinger {
   FingerIndex finger;
-  std::vector<collision::ConvexShape> shapes;    ///< shapes in the order of Finger::shapes
-  std::vector<collision::BoundingSphere> balls;  ///< bounding spheres of the shapes
+  std::vector<collision::PosedShape> shapes;  ///< shapes in the order of Finger::shapes
 };
 
 /// Clearance of sampled joint configurations in addition to the margin, metres.
@@ -78,6 +81,11 @@ class HandScene {
   [[nodiscard]] bool KeepsOffObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                     TipContact tip, Motion motion = {},
                                     Links links = Links::kAll) const;
+  /// Return whether the geometry that a fingertip sphere replaces is at most kCoveredDepth radii
+  /// inside the object at a contact.
+  /// @param inward  inward unit normal of the contact, in the palm's frame.
+  [[nodiscard]] bool IsShallow(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
+                               const Eigen::Vector3d& inward) const;
   /// Return the distance between a finger and the object, clamped to `limit`, metres.
   [[nodiscard]] double DistanceFromObject(const PlacedFinger& placed, const Eigen::Isometry3d& pose,
                                           double limit) const;
@@ -117,7 +125,7 @@ class HandScene {
   double object_reach_;  ///< radius of the object about its origin, metres
   /// Whether a fingertip shape contains a covered shape, which then adds nothing [finger][shape].
   std::vector<std::vector<bool>> redundant_;
-  std::vector<collision::BoundingSphere> palm_balls_;
+  std::vector<collision::PosedShape> palm_;
   std::vector<std::vector<collision::BoundingSphere>>
       balls_;  ///< bounding spheres [finger][shape], in the link's frame
   std::vector<std::vector<ShapePair>> with_palm_;  ///< pairs with the palm, by finger

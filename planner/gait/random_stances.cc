@@ -65,11 +65,12 @@ bool RandomStances::PlaceAt(FingerIndex finger, const grasp::Contact& contact,
                             Holding& holding) const {
   const kinematics::Finger& chain = scene_.finger(finger);
   const SurfacePoint point{request_.scale * contact.p, contact.n};
-  const auto configuration =
-      inverse_[finger].Solve(TargetAt(chain, point, holding.stance.state.pose));
+  const kinematics::TipTarget target = TargetAt(chain, point, holding.stance.state.pose);
+  const auto configuration = inverse_[finger].Solve(target);
   if (!configuration) return false;
   PlacedFinger placed = scene_.Place(finger, *configuration);
   if (!IsClear(placed, holding, TipContact::kTouching)) return false;
+  if (!scene_.IsShallow(placed, holding.stance.state.pose, target.towards)) return false;
   holding.placed.push_back(std::move(placed));
   holding.stance.state.joints[finger] = kinematics::JointAngles(chain, *configuration);
   holding.stance.grasp.push_back({finger, contact});

@@ -66,8 +66,11 @@ bool RollingTips::AreClear(const RolledTips& tips, const Eigen::Isometry3d& pose
     const auto& tip = tips[finger];
     placed.push_back(setup_.scene.Place(finger, tip ? tip->configuration : stance.idle[finger]));
     if (tip && !setup_.scene.KeepsOffHand(placed.back())) return false;
-    const TipContact touching = tip ? TipContact::kTouching : TipContact::kFree;
-    if (tip && !setup_.scene.KeepsOffObject(placed.back(), pose, touching)) return false;
+    if (tip && !setup_.scene.KeepsOffObject(placed.back(), pose, TipContact::kTouching))
+      return false;
+    if (tip && !setup_.scene.IsShallow(placed.back(), pose, pose.linear() * tip->contact.n)) {
+      return false;
+    }
     for (std::size_t other = 0; other + 1 < placed.size(); ++other) {
       if (!setup_.scene.KeepApart(placed[other], placed.back())) return false;
     }

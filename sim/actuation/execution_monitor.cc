@@ -283,7 +283,7 @@ ExecutionMonitor::Marks ExecutionMonitor::MarksOf(
   for (const HandLinks::Placed* placed : links) {
     const FingerIndex f = placed->link->finger;
     marks.links.push_back({f, placed->link->after});
-    sum += placed->ball.centre;
+    sum += placed->sphere.centre;
     if (f.valid() && std::ranges::find(marks.fingers, f) == marks.fingers.end()) {
       marks.fingers.push_back(f);
     }
@@ -297,16 +297,14 @@ void ExecutionMonitor::WatchLinks() {
   const std::vector<HandLinks::Placed> placed = PlaceLinks();
   for (const HandLinks::Placed& one : placed) {
     if (one.link->role != HandLinks::Role::kLink ||
-        object_->surface().IsApart(collision::Moved(to_object, one.shape), 0)) {
+        object_->surface().IsApart(collision::Moved(to_object, one), 0)) {
       continue;
     }
     Fail(Reason::kHandCollides, LinkText(one) + " touches the object", MarksOf({&one}));
   }
   for (auto a = placed.begin(); a != placed.end(); ++a) {
     for (auto b = a + 1; b != placed.end(); ++b) {
-      const double near = a->ball.radius + b->ball.radius;
-      if ((a->ball.centre - b->ball.centre).squaredNorm() > near * near) continue;
-      if (world_.links().MayTouch(*a, *b) || collision::AreApart(a->shape, b->shape, 0)) continue;
+      if (world_.links().MayTouch(*a, *b) || collision::AreApart(*a, *b, 0)) continue;
       Fail(Reason::kHandCollides, LinkText(*a) + " touches " + LinkText(*b), MarksOf({&*a, &*b}));
     }
   }
@@ -326,10 +324,10 @@ void ExecutionMonitor::WatchTips(const std::vector<HandLinks::Placed>& placed) {
     const FingerIndex f = one.link->finger;
     if (is_ball) {
       const double allowed = kCoveredDepth * world_.hand().fingers[f].tip.radius;
-      WatchDepth(f, one.shape, std::max(allowed, tolerance_.depth_m),
+      WatchDepth(f, ShapeOf(one), std::max(allowed, tolerance_.depth_m),
                  "the collision geometry of body " + one.link->link);
     } else if (!settling_) {
-      WatchDepth(f, one.shape, tolerance_.depth_m, "body " + one.link->link);
+      WatchDepth(f, ShapeOf(one), tolerance_.depth_m, "body " + one.link->link);
     }
   }
 }
@@ -357,7 +355,7 @@ void ExecutionMonitor::WatchTipsAtRest() {
     if (one.link->role != HandLinks::Role::kCovered) continue;
     const Vector3d outward = -world_.touch(one.link->finger).inward_O;
     const double depth =
-        object_->Depth(collision::Moved(to_object, one.shape), kDeepestMeasured, outward);
+        object_->Depth(collision::Moved(to_object, ShapeOf(one)), kDeepestMeasured, outward);
     measures_.covered_depth_m = std::max(measures_.covered_depth_m, depth);
   }
 }

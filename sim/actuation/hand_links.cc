@@ -11,7 +11,7 @@ HandLinks::HandLinks(const HandModel& hand) {
   const auto add = [&](FingerIndex finger, const std::vector<kinematics::LinkShape>& shapes) {
     for (int i = 0; i < std::ssize(shapes); ++i) {
       parts.push_back({finger, i});
-      links_.push_back({shapes[i], finger});
+      links_.push_back({shapes[i], finger, collision::BoundingSphereOf(shapes[i].shape)});
     }
   };
   add({}, hand.palm);
@@ -32,14 +32,12 @@ std::vector<HandLinks::Placed> HandLinks::Place(
   for (std::size_t i = 0; i < hand.fingers.size(); ++i) {
     frames.push_back(kinematics::FramesOf(hand.fingers[i], configurations[i]));
   }
+  const Eigen::Isometry3d palm = Eigen::Isometry3d::Identity();
   std::vector<Placed> placed;
   placed.reserve(links_.size());
   for (const Link& link : links_) {
-    Placed& one = placed.emplace_back();
-    one.link = &link;
-    one.shape = link.after == 0 ? link.shape
-                                : collision::Moved(frames[link.finger][link.after - 1], link.shape);
-    one.ball = collision::BoundingSphereOf(one.shape);
+    const Eigen::Isometry3d& pose = link.after == 0 ? palm : frames[link.finger][link.after - 1];
+    placed.push_back({{&link.shape, pose, {pose * link.sphere.centre, link.sphere.radius}}, &link});
   }
   return placed;
 }

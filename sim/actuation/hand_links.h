@@ -18,12 +18,12 @@ class HandLinks {
  public:
   using Role = kinematics::LinkShape::Role;
   struct Link : kinematics::LinkShape {
-    FingerIndex finger;  ///< finger of the link; not valid for the palm
+    FingerIndex finger;                ///< finger of the link; not valid for the palm
+    collision::BoundingSphere sphere;  ///< bounding sphere of the shape, in the link's frame
   };
-  struct Placed {
+  /// Link with its shape in the palm's frame.
+  struct Placed : collision::PosedShape {
     const Link* link = nullptr;
-    collision::ConvexShape shape;    ///< shape in the palm's frame
-    collision::BoundingSphere ball;  ///< bounding sphere of the shape
   };
 
   explicit HandLinks(const kinematics::HandModel& hand);

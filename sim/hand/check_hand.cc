@@ -252,7 +252,7 @@ HandFinding Checker::AtModelsRest(HandFinding finding) const {
 double Checker::NeededFromObject(int part, const Isometry3d& pose,
                                  const plan::FingerContact* touched) const {
   const HandPart& owner = body_.parts()[part];
-  if (!owner.is_tip || touched == nullptr) return clearance_;
+  if (owner.role != HandPart::Role::kTip || touched == nullptr) return clearance_;
   const double off = (body_.TipCentre(owner.finger) - BallAt(*touched, pose)).norm();
   return off <= kApproach ? -kTipDepth : clearance_;
 }
@@ -272,9 +272,10 @@ std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vect
       if (HaveGap(placed[a], placed[b], clearance_ + (bounds[a] + bounds[b]) / 2)) continue;
       return NearPair{a, b, clearance_};
     }
-    const FingerIndex finger = body_.parts()[a].finger;
-    const plan::FingerContact* touched = plan::FindFinger(middle.holding, finger);
-    if (touched == nullptr) touched = plan::FindFinger(others, finger);
+    const HandPart& owner = body_.parts()[a];
+    if (owner.role == HandPart::Role::kCovered) continue;  // its depth is limited by the replay
+    const plan::FingerContact* touched = plan::FindFinger(middle.holding, owner.finger);
+    if (touched == nullptr) touched = plan::FindFinger(others, owner.finger);
     const double needed = NeededFromObject(a, middle.state.pose, touched);
     ConvexBody part = placed[a];
     for (Vector3d& point : part.points) point = to_object * point;
@@ -313,8 +314,7 @@ std::optional<Checker::Conflict> Checker::FindConflict(const Instant& from, cons
 }
 
 /// Report the same pair at its smallest gap on the remaining path.
-/// The first violation is barely visible in an image, and the smallest gap shows the required
-/// correction.
+/// It shows the required correction, and the first violation is barely visible in an image.
 HandFinding Checker::WorstOf(const NearPair& near, const NamedPath& path, std::size_t index) {
   const auto last = path.states.size() - 1;
   const double stretch = static_cast<double>(last - index + 1);

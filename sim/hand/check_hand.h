@@ -24,7 +24,8 @@ struct HandCheckOptions {
 ///   during in-hand motions and sliding steps. Placed fingers end at their contacts.
 /// - No link is closer to another link, to the palm or to the object than the clearance, anywhere
 ///   on the paths. This is certified by a bound on motion between samples. A fingertip in contact,
-///   or about to be, may touch the object and penetrate it by up to 0.3 mm.
+///   or about to be, may touch the object and penetrate it by up to 0.3 mm. The collision geometry
+///   that a fingertip sphere replaces counts for links and palm, not for the object.
 /// - The object ends at the goal pose of the plan, and is in each goal set that the plan marks.
 ///
 /// @param plan  plan with a hand, located (plan::ProjectPlan).

@@ -100,6 +100,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using Role = HandPart::Role;
 
 constexpr double kNearAtRest = 1e-3;
 
@@ -163,13 +164,13 @@ struct HandBody::Impl {
         while (at != 0 && at != model->jnt_bodyid[joint]) at = model->body_parentid[at];
         return at != 0;
       });
-      if (above > part.joints) part = {finger, static_cast<int>(above), false, ""};
+      if (above > part.joints) part = {finger, static_cast<int>(above), Role::kLink, ""};
     }
     return part;
   }
-  void AddPart(int body, std::vector<Vector3d> points, double radius, bool is_tip) {
+  void AddPart(int body, std::vector<Vector3d> points, double radius, Role role) {
     HandPart part = Owner(body);
-    part.is_tip = is_tip;
+    part.role = role;
     const char* name = mj_id2name(model, mjOBJ_BODY, body);
     part.body = name != nullptr ? name : "body " + std::to_string(body);
     parts.push_back(part);
@@ -190,7 +191,9 @@ struct HandBody::Impl {
       const int body = model->geom_bodyid[geom];
       const bool collides = model->geom_contype[geom] != 0 || model->geom_conaffinity[geom] != 0;
       if (!collides || model->body_rootid[body] != model->body_rootid[palm]) continue;
-      if (IsPartOfTip(geom)) continue;
+      const bool is_covered = IsPartOfTip(geom);
+      // A marker of another body, inside the fingertip sphere.
+      if (is_covered && std::ranges::find(tip_bodies, body) == tip_bodies.end()) continue;
       const collision::ConvexShape shape = kinematics::ShapeOfGeom(*model, geom);
       if (shape.points.empty()) continue;
       mjtNum matrix[9];
@@ -198,11 +201,11 @@ struct HandBody::Impl {
       const Isometry3d in_body = PoseOf(model->geom_pos + std::ptrdiff_t{3} * geom, matrix);
       std::vector<Vector3d> points;
       for (const Vector3d& point : shape.points) points.push_back(in_body * point);
-      AddPart(body, std::move(points), shape.radius, false);
+      AddPart(body, std::move(points), shape.radius, is_covered ? Role::kCovered : Role::kLink);
     }
     for (std::size_t i = 0; i < tip_bodies.size(); ++i) {
       const kinematics::HandDescription::Tip& tip = description.tips[i];
-      AddPart(tip_bodies[i], {Vector3d::Zero(), tip.centre}, tip.radius, true);
+      AddPart(tip_bodies[i], {Vector3d::Zero(), tip.centre}, tip.radius, Role::kTip);
     }
   }
   /// Measure moment arms in the reference configuration.

@@ -54,9 +54,10 @@ class CouplingResiduals {
 
 /// Part of a hand that moves as one body.
 struct HandPart {
+  using Role = kinematics::LinkShape::Role;
   FingerIndex finger;  ///< finger; not valid for the palm
   int joints = 0;      ///< number of the finger's joints that move it
-  bool is_tip = false;
+  Role role = Role::kLink;
   std::string body;
 };
 

@@ -214,8 +214,8 @@ class FingertipReader {
     double least = kFarthestTip_m;
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (touches && links[i].role != kinematics::LinkShape::Role::kLink) continue;
-      const double distance = surface_.DistanceFrom(
-          collision::Moved(end_.state.pose.inverse(), placed.shapes[i]), kFarthestTip_m);
+      const collision::PosedShape link = Moved(end_.state.pose.inverse(), placed.shapes[i]);
+      const double distance = surface_.DistanceFrom(ShapeOf(link), kFarthestTip_m);
       if (distance >= least) continue;
       least = distance;
       nearest = links[i].link;

@@ -118,6 +118,38 @@ TEST(ConvexShapeTest, TheAnswerWhetherTheyAreApartIsThatOfTheDistance) {
   EXPECT_LT(yes, 2000);
 }
 
+/// Posed shapes are compared with the distance of the moved shapes.
+TEST(ConvexShapeTest, PosedShapesAreApartIfTheirMovedShapesAre) {
+  RandomStream random(8, RandomUse::kCandidates);
+  const auto posed = [&](const ConvexShape& shape) {
+    PosedShape one{&shape, RandomPose(random), BoundingSphereOf(shape)};
+    one.sphere.centre = one.pose * one.sphere.centre;
+    return one;
+  };
+  int apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    ConvexShape a = RandomHull(random, 6);
+    a.radius = random.Uniform();
+    const ConvexShape b = RandomHull(random, 1 + static_cast<int>(random.Index(8)));
+    const PosedShape at_a = posed(a);
+    const PosedShape at_b = posed(b);
+    const double distance = Distance(ShapeOf(at_a), ShapeOf(at_b)).lower;
+    ASSERT_EQ(AreApart(at_a, at_b, 0.5), distance > 0.5) << i;
+    if (distance > 0) {
+      ASSERT_TRUE(AreApart(at_a, at_b, distance * (1 - 1e-6)));
+      ASSERT_FALSE(AreApart(at_a, at_b, distance * (1 + 1e-6)));
+    }
+    const Eigen::Isometry3d motion = RandomPose(random);
+    ASSERT_EQ(AreApart(Moved(motion, at_a), Moved(motion, at_b), 0.5), distance > 0.5);
+    apart += static_cast<int>(distance > 0.5);
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_LT(apart, 2000);
+  const ConvexShape box = Box({0, 0, 0}, {1, 1, 1});
+  const PosedShape same{&box, Eigen::Isometry3d::Identity(), BoundingSphereOf(box)};
+  EXPECT_FALSE(AreApart(same, same, 0)) << "equal centres have no direction";
+}
+
 TEST(ConvexShapeTest, AlongTheDirectionThatWasFoundHullsAreApartAndAlongNoOtherMore) {
   RandomStream random(7, RandomUse::kCandidates);
   for (int i = 0; i < 500; ++i) {

@@ -42,6 +42,8 @@ TEST(SurfaceTreeTest, DistancesAreThoseOfAllTriangles) {
       ASSERT_NEAR(tree.DistanceFrom(shape, 1), expected, 1e-9);
       ASSERT_NEAR(tree.DistanceFrom(shape, 0.01), std::min(expected, 0.01), 1e-9);
       ASSERT_EQ(tree.IsApart(shape, 0.01), expected > 0.01);
+      const PosedShape posed{&shape, Eigen::Isometry3d::Identity(), BoundingSphereOf(shape)};
+      ASSERT_EQ(tree.IsApart(posed, 0.01), expected > 0.01);
       apart += static_cast<int>(expected > 0.01);
     }
     EXPECT_GT(apart, 20);

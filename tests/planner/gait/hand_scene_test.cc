@@ -58,5 +58,26 @@ TEST_F(HandSceneTest, FingersKeepClearOfTheCollisionGeometryOfFingertips) {
   EXPECT_LT(CountApart(wide), apart);
 }
 
+/// A sphere in the fingertip's body is as large as the fingertip sphere, and `ahead` of it. It is
+/// therefore by `ahead` inside the object that the fingertip touches.
+TEST_F(HandSceneTest, GeometryOfFingertipsIsShallowUpToAFractionOfTheRadius) {
+  const object::Polyhedron cube = MakeCube(0.1);
+  const collision::SurfaceTree surface(cube, 1);
+  const auto is_shallow = [&](const std::string& ahead_mm, double inside) {
+    const HandModel hand = HandWith(R"(<geom size="0.01" pos="0 0 )" + ahead_mm + R"("/>)");
+    const HandScene scene(hand, surface, 1e-3);
+    const kinematics::Finger& finger = hand.fingers[0];
+    const JointConfiguration straight = JointConfiguration::Zero(finger.drives);
+    const Eigen::Vector3d tip = kinematics::TipAt(finger, straight).centre;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = tip + Eigen::Vector3d(0, 0, finger.tip.radius + 0.1 - inside);
+    return scene.IsShallow(scene.Place(FingerIndex{0}, straight), pose, Eigen::Vector3d::UnitZ());
+  };
+  EXPECT_TRUE(is_shallow("0.0275", 0));
+  EXPECT_FALSE(is_shallow("0.0285", 0));
+  // The fingertip's capsule contains the sphere, which therefore does not count.
+  EXPECT_TRUE(is_shallow("0.024", 0.02));
+}
+
 }  // namespace hand_scene_test
 }  // namespace regrasp::gait

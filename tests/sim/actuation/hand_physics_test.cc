@@ -96,6 +96,23 @@ TEST(HandPhysicsTest, TorsionalFrictionResistsATorqueBelowItsLimit) {
   EXPECT_GT(RotationUnder(0.9, 0), 0.05);
 }
 
+/// A contact that pivots has no static friction left: friction and its torque are on the ellipse
+/// (f/μN)² + (τ/μNe)² = 1, and the velocities are normal to it. Under a force of share u of μN, the
+/// contact creeps by e · u/√(1 − u²) per radian.
+TEST(HandPhysicsTest, AContactThatPivotsCreepsUnderATangentialForce) {
+  constexpr double kShare = 0.3;
+  const auto creep_per_radian = [](double torsion) {
+    PlateOnTip plate({.torsion_m = torsion});
+    const double limit = kPlateMu * kPlateWeight;
+    plate.Run(0.1, kShare * limit * Vector3d::UnitX(), 2 * torsion * limit);
+    return plate.distance() / plate.angle();
+  };
+  const double expected = kShare / std::sqrt(1 - kShare * kShare);
+  for (const double torsion : {0.002, 0.005}) {
+    EXPECT_NEAR(creep_per_radian(torsion), expected * torsion, 0.1 * expected * torsion);
+  }
+}
+
 /// Return the distance that the plate slides under a share of the friction limit μN.
 double DistanceUnder(double share, const Vector3d& direction, bool pyramidal) {
   PlateOnTip plate({.pyramidal_cones = pyramidal});

@@ -12,14 +12,11 @@
 #include "planner/base/file.h"
 #include "planner/base/json.h"
 #include "planner/base/number.h"
-#include "planner/base/random.h"
-#include "planner/collision/convex_shape.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/kinematics/hand_file.h"
 #include "planner/plan/plan_io.h"
 #include "planner/plan/projection.h"
-#include "sim/hand/gap.h"
 #include "tests/fixtures/folder_test.h"
 #include "tests/fixtures/project_path.h"
 
@@ -199,6 +196,37 @@ TEST_F(CoupledHandTest, AJointOffItsCouplingIsNamed) {
   file_ = free;
   file_.description.couplings = {{"finger2_joint3", "finger2_joint2", 1, 0}};
   expect_fails("coupling of joint finger2_joint3 in the hand's file");
+}
+
+/// Fixture of the ring hand, whose fingertip bodies have another geom.
+class CheckedTipGeometryTest : public FolderTest {
+ protected:
+  std::vector<plan::HandFault> FaultsWith(const std::string& geom) {
+    std::string model = ReadFile(ProjectPath("models/hands/ring4.xml"));
+    for (int finger = 0; finger < 4; ++finger) {
+      const std::string tip = "<geom name=\"finger" + std::to_string(finger) + "_tip\"";
+      const std::size_t at = model.find(tip);
+      EXPECT_NE(at, std::string::npos);
+      model.insert(at, geom);
+    }
+    Write("ring4.xml", model);
+    const kinematics::HandFile file =
+        kinematics::ReadHandFile(Write("ring4.json", ReadFile(kHand)));
+    plan::Plan plan = GoodPlan();
+    plan.hand->sha256 = file.hand.sha256;
+    return CheckHand(file, Cube(), plan);
+  }
+};
+
+/// The plate is in the object at every contact, which only the replay limits. Plates of two fingers
+/// at one cube touch each other.
+TEST_F(CheckedTipGeometryTest, GeometryOfFingertipsMustNotTouchOtherLinks) {
+  EXPECT_THAT(FaultsWith(R"(<geom size="0.009" pos="0 0 0.02"/>)"), testing::IsEmpty());
+  EXPECT_THAT(FaultsWith(R"(<geom size="0.011" pos="0 0 0.024"/>)"), testing::IsEmpty());
+  const auto faults = FaultsWith(R"(<geom type="box" size="0.04 0.04 0.004" pos="0 0 0.02"/>)");
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults[0].reason, Reason::kHandCollides);
+  EXPECT_THAT(faults[0].detail, testing::HasSubstr("_distal of finger "));
 }
 
 TEST(CheckHandTest, AFileReadAgainPassesToo) {
@@ -424,86 +452,6 @@ TEST(CheckHandTest, AnotherHandAndNoHandAreRefused) {
   EXPECT_THROW((void)CheckHand(other, Cube(), plan), InputError);
   plan.hand.reset();
   EXPECT_THROW((void)CheckHand(kHand, Cube(), plan), InputError);
-}
-
-TEST(GapTest, KnownGaps) {
-  const auto box = [](const Vector3d& centre) {
-    std::vector<Vector3d> points;
-    for (int i = 0; i < 8; ++i) {
-      points.push_back(
-          centre + Vector3d((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
-    }
-    return points;
-  };
-  const ConvexBody at_origin = MakeConvexBody(box({0, 0, 0}), 0);
-  for (const double gap : {0.01, 0.5, 3.0}) {
-    for (const Vector3d& along : {Vector3d(1, 0, 0), Vector3d(0, 0.6, 0.8)}) {
-      // Face to face, or edge to edge.
-      const double size = along.x() == 1 ? 2 : 0;
-      const ConvexBody other = size > 0 ? MakeConvexBody(box((size + gap) * along), 0)
-                                        : MakeConvexBody({Vector3d(0, 1, 1) + gap * along}, 0);
-      EXPECT_TRUE(HaveGap(at_origin, other, 0.99 * gap)) << gap;
-      EXPECT_FALSE(HaveGap(at_origin, other, 1.01 * gap)) << gap;
-    }
-    const ConvexBody ball = MakeConvexBody({Vector3d(0, 0, 1 + 0.25 + gap)}, 0.25);
-    EXPECT_TRUE(HaveGap(at_origin, ball, 0.999 * gap));
-    EXPECT_FALSE(HaveGap(at_origin, ball, 1.001 * gap));
-  }
-  EXPECT_FALSE(HaveGap(at_origin, at_origin, 0));
-  EXPECT_FALSE(HaveGap(at_origin, MakeConvexBody({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
-}
-
-TEST(GapTest, TheNearestOfSomeAndThePlaceBetween) {
-  const ConvexBody ball = MakeConvexBody({Vector3d(0, 0, 0)}, 0.5);
-  const std::vector<ConvexBody> others = {
-      MakeConvexBody({Vector3d(9, 0, 0)}, 1),
-      MakeConvexBody({Vector3d(3, -2, 0), Vector3d(3, 2, 0)}, 1)};
-  const Nearness nearest = NearestOf(ball, others);
-  EXPECT_NEAR(nearest.gap, 1.5, 1e-2);
-  EXPECT_NEAR((nearest.at - Vector3d(1.25, 0, 0)).norm(), 0, 0.1);
-}
-
-TEST(GapTest, AWayOutIsAsLongAsTheOverlap) {
-  const auto box = [](double x) {
-    std::vector<Vector3d> points;
-    for (int i = 0; i < 8; ++i) {
-      points.emplace_back(x + ((i & 1) != 0 ? 1 : -1), (i & 2) != 0 ? 1 : -1,
-                          (i & 4) != 0 ? 1 : -1);
-    }
-    return MakeConvexBody(points, 0);
-  };
-  const std::vector<Vector3d> ways = {Vector3d::UnitY(), -Vector3d::UnitX(), Vector3d::UnitX()};
-  for (const double overlap : {0.01, 0.3, 0.9}) {
-    const ConvexBody other = box(2 - overlap);
-    EXPECT_NEAR(FreeingDistance(box(0), {&other, 1}, ways), overlap, 0.01 * overlap + 1e-6);
-  }
-  const ConvexBody apart = box(3);
-  EXPECT_LE(FreeingDistance(box(0), {&apart, 1}, ways), 1e-6);
-}
-
-/// Compare with the other distance algorithm, close to its answer, where many small steps are
-/// necessary.
-TEST(GapTest, IsDecidedCloseToTheDistance) {
-  RandomStream random(1, RandomUse::kGaits);
-  const auto hull = [&random](const Vector3d& centre) {
-    std::vector<Vector3d> points;
-    for (int i = 0; i < 32; ++i) {
-      points.push_back(centre + Vector3d(random.Normal(), random.Normal(), 5 * random.Normal()));
-    }
-    return points;
-  };
-  int apart = 0;
-  for (int i = 0; i < 300; ++i) {
-    const std::vector<Vector3d> a = hull({0, 0, 0});
-    const std::vector<Vector3d> b = hull({5 + 2 * random.Normal(), random.Normal(), 0});
-    const double distance = collision::Distance({a, 0}, {b, 0}).lower;
-    // Skip tiny distances: a clearance is larger than a thousandth of a link.
-    if (distance < 0.05) continue;
-    ++apart;
-    EXPECT_TRUE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 - 1e-3))) << i;
-    EXPECT_FALSE(HaveGap(MakeConvexBody(a, 0), MakeConvexBody(b, 0), distance * (1 + 1e-3))) << i;
-  }
-  EXPECT_GT(apart, 50);
 }
 
 }  // namespace check_hand_test
