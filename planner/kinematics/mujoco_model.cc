@@ -125,8 +125,8 @@ ModelPtr Load(const fs::path& path, const ModelText& text) {
   return model;
 }
 
-std::string SaveMjcf(const fs::path& path, const ModelText& text) {
-  const ModelPtr model = Load(path, text);
+/// Return the model that was loaded last as MJCF.
+std::string SaveMjcf(const ModelPtr& model) {
   // MuJoCo can write to files only.
   const std::string name = "/proc/self/fd/" + std::to_string(memfd_create("mjcf", 0));
   std::array<char, 1000> error{};
@@ -137,8 +137,7 @@ std::string SaveMjcf(const fs::path& path, const ModelText& text) {
   return ReadFile(name);
 }
 
-std::string CompileToBytes(const fs::path& path, const ModelText& text) {
-  const ModelPtr model = Load(path, text);
+std::string BytesOf(const ModelPtr& model) {
   std::string bytes(static_cast<std::size_t>(mj_sizeModel(model.get())), '\0');
   mj_saveModel(model.get(), nullptr, bytes.data(), static_cast<int>(bytes.size()));
   return bytes;
@@ -172,7 +171,27 @@ std::string InChild(const std::function<std::string()>& task) {
 /// Compile a model in a limited child process.
 /// @throws std::runtime_error  if MuJoCo rejects the model; with its message.
 ModelPtr Compile(const fs::path& path, const ModelText& text) {
-  return FromBytes(InChild([&] { return CompileToBytes(path, text); }));
+  return FromBytes(InChild([&] { return BytesOf(Load(path, text)); }));
+}
+
+bool IsUrdf(const ModelText& text) { return text.root.name == "robot"; }
+
+/// Set the model of the text, and the conversion of a URDF.
+/// MuJoCo reads the meshes once for both, because they are most of the time.
+/// @throws std::runtime_error  as Compile.
+void Compile(const fs::path& path, CompiledModel& compiled) {
+  const ModelText& text = compiled.text;
+  if (!IsUrdf(text)) {
+    compiled.model = Compile(path, text);
+    return;
+  }
+  const std::string both = InChild([&] {
+    const ModelPtr model = Load(path, text);
+    return SaveMjcf(model) + '\0' + BytesOf(model);
+  });
+  const std::size_t end = both.find('\0');
+  compiled.mjcf = ParseXml(both.substr(0, end), path.string());
+  compiled.model = FromBytes(both.substr(end + 1));
 }
 
 InputError Refused(const fs::path& path, const std::runtime_error& error) {
@@ -204,16 +223,16 @@ std::vector<double> DampingsOf(const mjModel& model, const std::vector<DampingRa
 }  // namespace
 
 CompiledModel CompileModel(const fs::path& path) {
-  CompiledModel compiled{nullptr, ReadModelText(path)};
+  CompiledModel compiled{nullptr, ReadModelText(path), {}};
   ModelText& text = compiled.text;
   try {
     try {
-      compiled.model = Compile(path, text);
+      Compile(path, compiled);
     } catch (const std::runtime_error& error) {
       // MuJoCo's requirements on meshes are stricter than visual geoms need.
-      if (text.root.name != "robot") throw;
+      if (!IsUrdf(text)) throw;
       DiscardVisuals(error.what(), text);
-      compiled.model = Compile(path, text);
+      Compile(path, compiled);
     }
     if (!text.damping_ratios.empty()) {
       SetDampings(DampingsOf(*compiled.model, text.damping_ratios), text);
@@ -225,6 +244,12 @@ CompiledModel CompileModel(const fs::path& path) {
     throw Refused(path, error);
   }
   return compiled;
+}
+
+ModelText MjcfOf(const CompiledModel& compiled) {
+  ModelText text = compiled.text;
+  if (IsUrdf(text)) text.root = compiled.mjcf;
+  return text;
 }
 
 ModelPtr CompileText(const fs::path& path, const ModelText& text) {
@@ -240,7 +265,7 @@ ModelPtr CompileText(const fs::path& path, const ModelText& text) {
 ModelText AsMjcf(const fs::path& path, const ModelText& text) {
   try {
     ModelText mjcf = text;
-    mjcf.root = ParseXml(InChild([&] { return SaveMjcf(path, text); }), path.string());
+    mjcf.root = ParseXml(InChild([&] { return SaveMjcf(Load(path, text)); }), path.string());
     return mjcf;
   } catch (const EnvironmentError&) {
     throw;

@@ -32,8 +32,12 @@ using mujoco::ModelPtr;
 
 struct CompiledModel {
   ModelPtr model;
-  ModelText text;  ///< compiled text
+  ModelText text;   ///< compiled text
+  XmlElement mjcf;  ///< MuJoCo's conversion of a URDF text to MJCF; empty for other models
 };
+
+/// Return the compiled text of a model; of a URDF model its conversion to MJCF.
+[[nodiscard]] ModelText MjcfOf(const CompiledModel& compiled);
 
 /// Compile an MJCF or URDF model with its meshes.
 /// The model is converted to the linked MuJoCo version (model_text.h).

@@ -105,7 +105,7 @@ void DropFollowersActuators(const kinematics::HandModel& hand, XmlElement& root)
 /// The force limits are those of the joints.
 kinematics::ModelText UrdfWithMotors(const kinematics::HandFile& file) {
   const kinematics::ModelText& urdf = file.compiled->text;
-  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
+  kinematics::ModelText text = kinematics::MjcfOf(*file.compiled);
   std::vector<XmlElement> motors;
   for (const kinematics::Finger& finger : file.hand.fingers) {
     for (int drive = 0; drive < finger.drives; ++drive) {

@@ -26,6 +26,7 @@ struct JointDrive {
   bool is_limited = false;
   double lower = 0, upper = 0;  ///< range if it is limited, radians
   // The actuator: force = gain · control + constant + per_angle · q + per_speed · w, clamped.
+  // Joints that follow another one have none, and no range.
   int actuator = -1;  ///< index in the model; −1: none
   double moment = 0;  ///< torque per force
   double gain = 0, constant = 0, per_angle = 0, per_speed = 0;
@@ -53,8 +54,8 @@ struct JointDrive {
 };
 
 /// Return the drives of all joints of a tree's links, in their order.
-/// @throws InputError  if the model has couplings, tendons with forces, or actuators that do not
-///     act on one joint.
+/// @throws InputError  if the model has tendons with forces, or actuators that do not act on one
+///     independent joint.
 [[nodiscard]] std::vector<JointDrive> JointDrivesOf(const HandScene& scene, const LinkTree& tree);
 
 }  // namespace regrasp::sim

@@ -46,17 +46,18 @@ void OdeHand::Place(const plan::HandState& state) {
   Impl& impl = *impl_;
   impl.Stop();
   impl.time = 0;
+  Eigen::VectorXd angles = impl.angles;
   for (FingerIndex f{0}; f < std::ssize(scene().fingers); ++f) {
     for (std::size_t k = 0; k < scene().fingers[f].joints.size(); ++k) {
-      impl.angles[impl.tree.link(f, k)] = state.joints[f][k];
+      angles[impl.tree.link(f, k)] = state.joints[f][k];
     }
   }
+  impl.SetAngles(angles);
   std::ranges::fill(impl.controls, 0);
   impl.load = impl.torque = Vector3d::Zero();
   const Isometry3d pose = scene().palm * state.pose;
   impl.centre = pose * scene().centroid;
   impl.turn = Quaterniond(pose.linear());
-  impl.poses = impl.tree.Place(impl.angles);
   impl.FindTouches();
 }
 
@@ -77,13 +78,7 @@ double OdeHand::largest_speed() const {
 }
 
 kinematics::JointConfiguration OdeHand::configuration(FingerIndex finger) const {
-  const kinematics::Finger& chain = scene().hand.fingers[finger];
-  kinematics::JointConfiguration configuration(chain.drives);
-  for (std::size_t k = 0; k < chain.joints.size(); ++k) {
-    const double angle = impl_->angles[impl_->tree.link(finger, k)];
-    configuration[chain.joints[k].drive] = kinematics::DriveAngle(chain.joints[k], angle);
-  }
-  return configuration;
+  return kinematics::ConfigurationAt(scene().hand.fingers[finger], joint_angles_of(finger));
 }
 
 std::vector<double> OdeHand::joint_angles_of(FingerIndex finger) const {
@@ -137,9 +132,7 @@ std::optional<collision::NearPoint> OdeHand::NearBall(FingerIndex finger) const 
 }
 
 double OdeHand::torque(FingerIndex finger, int drive) const {
-  const kinematics::Finger& chain = scene().hand.fingers[finger];
-  const auto joint = std::ranges::find(chain.joints, drive, &kinematics::Joint::drive);
-  const int link = impl_->tree.link(finger, joint - chain.joints.begin());
+  const int link = impl_->LeadingLink(finger, drive);
   return impl_->forces[link] * impl_->drives[link].moment;
 }
 
@@ -180,12 +173,10 @@ VectorXd OdeHand::BalancingTorques(FingerIndex finger, const Vector3d& at,
 void OdeHand::Command(FingerIndex finger, const kinematics::JointConfiguration& target,
                       const VectorXd& torques) {
   const kinematics::JointConfiguration now = measured_configuration(finger);
-  const kinematics::Finger& chain = scene().hand.fingers[finger];
   const double nominal = 1 / scene().options.physics.gain_factor;
-  for (std::size_t k = 0; k < chain.joints.size(); ++k) {
-    const int i = impl_->tree.link(finger, k);
+  for (int drive = 0; drive < now.size(); ++drive) {
+    const int i = impl_->LeadingLink(finger, drive);
     const JointDrive& law = impl_->drives[i];
-    const int drive = chain.joints[k].drive;
     const double angle = impl_->angles[i] + target[drive] - now[drive];
     const double force = torques[drive] / law.moment;
     const double control =

@@ -22,7 +22,8 @@ void CheckOdePhysics(const HandPhysics& physics);
 /// are hard constraints. Armature, damping, springs and servos of a joint are one implicit row
 /// (JointDrive). Contacts are hard, and friction cones are circular (BoxInCircle, KeepsCone): each
 /// step is solved again until the friction of every contact obeys its cone, and every actuator its
-/// force limit. ODE's direct solver is used.
+/// force limit. ODE's direct solver is used. Coupled joints are exact; their actuator moves the
+/// joint that the others follow (LinkCoupling).
 ///
 /// A time step of the replay is two steps of ODE with the same controls. After each the links are
 /// placed again from their joint angles, so joints do not drift. The velocities of the links are
@@ -32,8 +33,8 @@ void CheckOdePhysics(const HandPhysics& physics);
 /// at which fingertips touch the object (TipSurface).
 class OdeHand final : public HandEngine {
  public:
-  /// @throws InputError  if the hand cannot be simulated in ODE: couplings, several joints of a
-  ///     body, forces of tendons; as CheckOdePhysics.
+  /// @throws InputError  if the hand cannot be simulated in ODE: several joints of a body, coupled
+  ///     joints that are not successive, forces of tendons; as CheckOdePhysics.
   OdeHand(const kinematics::HandFile& file, const object::Polyhedron& solid, double scale,
           const HandWorldOptions& options);
   ~OdeHand() override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "planner/kinematics/finger_kinematics.h"
 #include "sim/scene/engine.h"
 
 namespace regrasp::sim {
@@ -21,6 +22,8 @@ constexpr double kMostRecovery = 0.05;
 constexpr double kRestDepth = 1e-6;
 /// Contact force below which the cone is not checked, newtons.
 constexpr double kSlack = 1e-5;
+/// Length of rods, metres; only their lines matter.
+constexpr double kRodLength = 0.1;
 /// Force of a contact before its first solution, newtons.
 constexpr double kFirstForce = 0.05;
 
@@ -91,6 +94,7 @@ void OdeHandBodies::MakeLinks() {
     SetPose(bodies.back(), CentreOf(i), Quaterniond(poses[i].linear()));
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) MakeHinge(static_cast<int>(i));
+  MakeRods();
 }
 
 /// Make the revolute joint of a link, and the rows about its axis.
@@ -98,7 +102,7 @@ void OdeHandBodies::MakeHinge(int link) {
   const LinkTree::Link& made = tree.links()[link];
   const JointDrive& drive = drives[link];
   const dBodyID parent = made.parent < 0 ? nullptr : bodies[made.parent];
-  const Vector3d anchor = poses[link] * made.anchor;
+  const Vector3d anchor = AnchorOf(link);
   const Vector3d axis = AxisOf(link);
   const dJointID hinge = dJointCreateHinge(world.get(), hinges.get());
   dJointAttach(hinge, bodies[link], parent);
@@ -124,6 +128,42 @@ void OdeHandBodies::MakeHinge(int link) {
     dJointSetAMotorParam(brake, dParamVel, 0);
     dJointSetAMotorParam(brake, dParamFMax, drive.friction);
   }
+}
+
+/// Make the rods of coupled joints, which are exact and only act on velocities: SetAngles keeps the
+/// angles coupled.
+void OdeHandBodies::MakeRods() {
+  for (const LinkCoupling& coupling : couplings) {
+    const int middle = tree.links()[coupling.link].parent;
+    const int first = tree.links()[middle].parent;
+    const dJointID rod = dJointCreateDBall(world.get(), hinges.get());
+    dJointAttach(rod, bodies[coupling.link], first < 0 ? nullptr : bodies[first]);
+    dJointSetDBallParam(rod, dParamERP, 0);
+    dJointSetDBallParam(rod, dParamCFM, 0);
+    rods.push_back(rod);
+  }
+}
+
+int OdeHandBodies::LeadingLink(FingerIndex finger, int drive) const {
+  const std::vector<kinematics::Joint>& joints = scene.hand.fingers[finger].joints;
+  const auto joint = std::ranges::find_if(
+      joints, [&](const kinematics::Joint& one) { return one.drive == drive && !one.follows; });
+  return tree.link(finger, joint - joints.begin());
+}
+
+/// Set the angles of the joints, and those of joints that follow others to the couplings.
+void OdeHandBodies::SetAngles(const VectorXd& next) {
+  angles = next;
+  for (FingerIndex f{0}; f < std::ssize(scene.hand.fingers); ++f) {
+    const kinematics::Finger& finger = scene.hand.fingers[f];
+    for (std::size_t k = 0; k < finger.joints.size(); ++k) {
+      const kinematics::Joint& joint = finger.joints[k];
+      if (!joint.follows) continue;
+      angles[tree.link(f, k)] =
+          joint.ratio * angles[LeadingLink(f, joint.drive)] + joint.coupling_offset;
+    }
+  }
+  poses = tree.Place(angles);
 }
 
 /// Set all velocities to zero, and forget contacts.
@@ -186,6 +226,20 @@ void OdeHandBodies::LoadMotors(const std::vector<int>& saturated) {
   }
 }
 
+/// Set the rods of couplings to the poses of the links.
+void OdeHandBodies::LoadRods() {
+  for (std::size_t i = 0; i < rods.size(); ++i) {
+    const int link = couplings[i].link;
+    const int middle = tree.links()[link].parent;
+    const RodLine line = RodLineOf({AnchorOf(middle), AxisOf(middle)},
+                                   {AnchorOf(link), AxisOf(link)}, couplings[i].ratio);
+    const Vector3d& p = line.point;
+    const Vector3d end = p + kRodLength * line.direction;
+    dJointSetDBallAnchor1(rods[i], p.x(), p.y(), p.z());
+    dJointSetDBallAnchor2(rods[i], end.x(), end.y(), end.z());
+  }
+}
+
 void OdeHandBodies::AddContacts(int tried, std::vector<Touch>& trial,
                                 std::vector<FrictionBox>& boxes,
                                 std::vector<dJointFeedback>& feedback) {
@@ -236,6 +290,7 @@ bool OdeHandBodies::Solve(int tried, std::vector<Touch>& trial) {
     ++solutions;
     LoadBodies();
     LoadMotors(saturated);
+    LoadRods();
     AddContacts(tried, trial, boxes, feedback);
     if (!StepOde(world.get(), timestep)) return false;
     bool kept = true;
@@ -278,8 +333,7 @@ void OdeHandBodies::TakeBodies() {
     motions[i] = MotionOf(bodies[i]);
   }
   speeds = solved;
-  angles += timestep * speeds;
-  poses = tree.Place(angles);
+  SetAngles(angles + timestep * speeds);
   if (!pinned) {
     centre = Read(dBodyGetPosition(object));
     const dReal* q = dBodyGetQuaternion(object);

@@ -8,6 +8,7 @@
 
 #include "sim/actuation/hand_scene.h"
 #include "sim/actuation/joint_drive.h"
+#include "sim/actuation/link_couplings.h"
 #include "sim/actuation/link_tree.h"
 #include "sim/ode/ode_world.h"
 
@@ -34,6 +35,7 @@ struct OdeHandBodies {
   HandScene& scene;
   LinkTree tree{scene};
   std::vector<JointDrive> drives = JointDrivesOf(scene, tree);
+  std::vector<LinkCoupling> couplings = LinkCouplingsOf(scene, tree);
   /// Steps of ODE in a time step of the replay: links move on arcs, and a shorter step follows
   /// them more closely.
   static constexpr int kSubsteps = 2;
@@ -45,6 +47,7 @@ struct OdeHandBodies {
   dBodyID object = nullptr;
   std::vector<dBodyID> bodies;   ///< ODE body or joint, by link
   std::vector<dJointID> motors;  ///< ODE body or joint, by link
+  std::vector<dJointID> rods;    ///< ODE joint, by coupling
   double mass = 0;               ///< mass of the object
 
   // State.
@@ -67,11 +70,12 @@ struct OdeHandBodies {
   long steps = 0, solutions = 0;
 
   /// @param given  must outlive this object.
-  /// @throws InputError  as LinkTree and JointDrivesOf.
+  /// @throws InputError  as LinkTree, JointDrivesOf and LinkCouplingsOf.
   explicit OdeHandBodies(HandScene& given);
   void MakeObject();
   void MakeLinks();
   void MakeHinge(int link);
+  void MakeRods();
 
   [[nodiscard]] Eigen::Isometry3d ObjectPose() const {
     Eigen::Isometry3d pose = Eigen::Translation3d(centre) * turn;
@@ -93,6 +97,9 @@ struct OdeHandBodies {
   [[nodiscard]] Eigen::Vector3d AxisOf(std::size_t link) const {
     return poses[link].linear() * tree.links()[link].axis;
   }
+  [[nodiscard]] Eigen::Vector3d AnchorOf(std::size_t link) const {
+    return poses[link] * tree.links()[link].anchor;
+  }
   [[nodiscard]] Eigen::Vector3d SpeedOfLinkAt(int link, const Eigen::Vector3d& point) const {
     const Motion& motion = motions[link];
     return motion.velocity + motion.spin.cross(point - CentreOf(link));
@@ -101,10 +108,15 @@ struct OdeHandBodies {
     return object_motion.velocity + object_motion.spin.cross(point - centre);
   }
 
+  /// Return the link of the joint that an independent joint's actuator moves.
+  [[nodiscard]] int LeadingLink(FingerIndex finger, int drive) const;
+
   void Stop();
+  void SetAngles(const Eigen::VectorXd& next);
   void FindTouches();
   void LoadBodies();
   void LoadMotors(const std::vector<int>& saturated);
+  void LoadRods();
   void AddContacts(int tried, std::vector<Touch>& trial, std::vector<FrictionBox>& boxes,
                    std::vector<dJointFeedback>& feedback);
   [[nodiscard]] Eigen::VectorXd SolvedSpeeds() const;

@@ -43,7 +43,7 @@ std::vector<std::string> ScalarJoints(const mjModel& model) {
 /// Return a URDF model as MJCF with couplings and actuators, which MuJoCo ignores.
 kinematics::ModelText UrdfWithActuators(const kinematics::CompiledModel& compiled) {
   const kinematics::ModelText& urdf = compiled.text;
-  kinematics::ModelText text = kinematics::AsMjcf(urdf.files.front(), urdf);
+  kinematics::ModelText text = kinematics::MjcfOf(compiled);
   std::set<std::string> following;
   std::vector<XmlElement> couplings;
   std::vector<XmlElement> motors;

@@ -276,6 +276,18 @@ TEST_F(ConvertModelTest, WhatIsNoNumberOfAJointIsRefused) {
               HasSubstr("<mimic> of joint j: expected the attribute joint"));
 }
 
+/// MuJoCo converts a URDF once, when it compiles it; each replay uses this conversion.
+TEST_F(ConvertModelTest, AUrdfIsConvertedToMjcfOnce) {
+  const CompiledModel compiled = Compile(JointUrdf(R"(<limit lower="0" upper="1"/>)"));
+  const ModelText text = MjcfOf(compiled);
+  EXPECT_EQ(text.root.name, "mujoco");
+  EXPECT_EQ(FormatXml(text.root),
+            FormatXml(AsMjcf(compiled.text.files.front(), compiled.text).root));
+  EXPECT_EQ(CompileText("model.xml", text)->njnt, 1);
+  const CompiledModel mjcf = Compile(Revolute("", "", R"(<motor joint="j"/>)"));
+  EXPECT_EQ(FormatXml(MjcfOf(mjcf).root), FormatXml(mjcf.text.root));
+}
+
 TEST_F(ConvertModelTest, AnEffortOfZeroOrNoneIsUnknown) {
   for (const char* effort : {"", "effort=\"0\"", "effort=\" 0.0\""}) {
     const CompiledModel compiled =

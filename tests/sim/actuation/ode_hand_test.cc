@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "planner/base/error.h"
 #include "planner/kinematics/finger_kinematics.h"
+#include "planner/kinematics/mujoco_model.h"
 #include "sim/actuation/entry_replay.h"
 #include "sim/actuation/hand_control.h"
 #include "sim/actuation/hand_replay.h"
@@ -255,17 +257,155 @@ TEST_F(OdeHandTest, PhysicsOfMujocoAloneIsRefused) {
   EXPECT_THROW(static_cast<void>(ReplayHand(hand_, solid(), plan_, options)), InputError);
 }
 
-using OdeHandModelTest = EditedHandTest;
+class OdeHandModelTest : public EditedHandTest {
+ protected:
+  /// Return a hand whose last two joints of each finger share an actuator by a tendon, as in the
+  /// Shadow hand.
+  [[nodiscard]] kinematics::HandFile TendonHand() const {
+    std::vector<Edit> edits;
+    std::string tendons = "<tendon>";
+    for (int f = 0; f < 5; ++f) {
+      const std::string finger = "finger" + std::to_string(f);
+      edits.push_back(
+          {"<position name=\"" + finger + "_motor3\" joint=\"" + finger + "_joint3\"/>", ""});
+      edits.push_back({"joint=\"" + finger + "_joint2\"/>", "tendon=\"" + finger + "\"/>"});
+      tendons += "<fixed name=\"" + finger + "\"><joint joint=\"" + finger +
+                 "_joint2\" coef=\"1\"/><joint joint=\"" + finger +
+                 "_joint3\" coef=\"1\"/></fixed>";
+    }
+    edits.push_back({"<actuator>", tendons + "</tendon><actuator>"});
+    return HandWith(edits, true);
+  }
+  [[nodiscard]] HandWorldOptions WorldOptions() const { return {.mu = kMu, .mass_kg = kMass}; }
+};
 
-TEST_F(OdeHandModelTest, CoupledJointsAreRefused) {
-  const object::ObjectFile cube = object::ReadObject(ProjectPath("models/cube.obj"));
-  const auto& solid = dynamic_cast<const object::Polyhedron&>(*cube.object);
+/// Return a state of a hand with the object below it.
+plan::HandState Apart(const kinematics::HandModel& hand, double share) {
+  plan::HandState state;
+  state.pose.translation() = -hand.up;
+  for (const kinematics::Finger& finger : hand.fingers) {
+    state.joints.push_back(
+        kinematics::JointAngles(finger, finger.lower + share * (finger.upper - finger.lower)));
+  }
+  return state;
+}
+
+/// Return the derivative of the potential energy of a hand by an independent joint, newton metres.
+/// Positions are those of the compiled model.
+/// @param joints  step of each joint of the finger per step of the independent joint.
+double Slope(const kinematics::HandFile& file, const plan::HandState& state, FingerIndex finger,
+             const std::vector<double>& joints) {
+  constexpr double kStep = 1e-5;
+  const mjModel& model = *file.compiled->model;
+  const kinematics::DataPtr data = kinematics::AtRest(model);
+  const auto energy = [&](double step) {
+    for (FingerIndex f{0}; f < std::ssize(file.hand.fingers); ++f) {
+      for (std::size_t k = 0; k < file.hand.fingers[f].joints.size(); ++k) {
+        const int joint =
+            mj_name2id(&model, mjOBJ_JOINT, file.hand.fingers[f].joints[k].name.c_str());
+        data->qpos[model.jnt_qposadr[joint]] =
+            state.joints[f][k] + (f == finger ? step * joints[k] : 0);
+      }
+    }
+    mj_kinematics(&model, data.get());
+    double sum = 0;
+    for (int body = 1; body < model.nbody; ++body) {
+      const Eigen::Map<const Vector3d> centre(data->xipos + std::ptrdiff_t{3} * body);
+      sum += kGravity * model.body_mass[body] * centre.dot(file.hand.up);
+    }
+    return sum;
+  };
+  return (energy(kStep) - energy(-kStep)) / (2 * kStep);
+}
+
+/// At rest the torque of a coupled actuator balances the weight of both links by the principle of
+/// virtual work.
+TEST_F(OdeHandModelTest, CoupledJointsAreInEquilibrium) {
+  for (const kinematics::HandFile& hand : {CoupledHand(), TendonHand()}) {
+    OdeHand world(hand, solid(), kScale, WorldOptions());
+    world.Place(Apart(hand.hand, 0.4));
+    world.PinObject(true);
+    const FingerIndex f{1};
+    const int drive = 2;
+    const JointConfiguration target = world.configuration(f);
+    world.Command(f, target, Eigen::VectorXd::Zero(target.size()));
+    for (int i = 0; i < 4000; ++i) world.Step();
+    const plan::HandState state = world.state();
+    const double weight = Slope(hand, state, f, {0, 0, 1, 1});
+    EXPECT_NEAR(world.torque(f, drive), weight, 1e-6);
+    EXPECT_GT(std::abs(weight), 1e-4);
+    // The servo is off its target by the torque over its stiffness.
+    EXPECT_NEAR(world.servo(f, drive).stiffness * (target[drive] - world.configuration(f)[drive]),
+                weight, 1e-6);
+    // Negative control: the weight about one of the joints differs.
+    EXPECT_GT(std::abs(world.torque(f, drive) - Slope(hand, state, f, {0, 0, 1, 0})), 1e-5);
+  }
+}
+
+/// Coupled joints follow a wave of targets as in MuJoCo, whose coupling yields a little.
+TEST_F(OdeHandModelTest, CoupledJointsMoveAsInMujoco) {
+  for (const kinematics::HandFile& hand : {CoupledHand(), TendonHand()}) {
+    HandWorld mujoco(hand, solid(), kScale, WorldOptions());
+    OdeHand ode(hand, solid(), kScale, WorldOptions());
+    const plan::HandState start = Apart(hand.hand, 0.4);
+    double largest = 0;
+    double range = 0;
+    double uncoupled = 0;
+    for (HandEngine* world : std::vector<HandEngine*>{&mujoco, &ode}) world->Place(start);
+    const JointConfiguration first = ode.configuration(FingerIndex(0));
+    for (int i = 0; i < 1000; ++i) {
+      for (HandEngine* world : std::vector<HandEngine*>{&mujoco, &ode}) {
+        for (FingerIndex f{0}; f < std::ssize(hand.hand.fingers); ++f) {
+          const kinematics::Finger& chain = hand.hand.fingers[f];
+          JointConfiguration target =
+              Wave(chain, kinematics::ConfigurationAt(chain, start.joints[f]), 1e-3 * i);
+          if (i >= 500) target[2] -= 0.1;  // a step
+          world->Command(f, target, Eigen::VectorXd::Zero(target.size()));
+        }
+        world->Step();
+      }
+      for (FingerIndex f{0}; f < std::ssize(hand.hand.fingers); ++f) {
+        const JointConfiguration off = mujoco.configuration(f) - ode.configuration(f);
+        largest = std::max(largest, off.cwiseAbs().maxCoeff());
+        const std::vector<double> joints = ode.joint_angles_of(f);
+        uncoupled = std::max(uncoupled, std::abs(joints[3] - joints[2]));
+      }
+      range = std::max(range, std::abs((ode.configuration(FingerIndex(0)) - first)[2]));
+    }
+    RecordProperty("largest_difference_urad", static_cast<int>(1e6 * largest));
+    EXPECT_LT(largest, 3e-3);
+    EXPECT_GT(range, 0.15);
+    EXPECT_LT(uncoupled, 1e-12);
+  }
+}
+
+/// A plan of a coupled hand passes in ODE, and fails there without friction.
+TEST_F(OdeHandModelTest, APlanOfACoupledHandPasses) {
+  const kinematics::HandFile hand = TendonHand();
+  const plan::Plan plan = PlanFor(hand);
+  HandReplayOptions options;
+  options.mass_kg = kMass;
+  options.engine = EngineChoice::kBoth;
+  for (const StepReplay& step : ReplayHand(hand, solid(), plan, options).steps) {
+    EXPECT_EQ(step.reason, Reason::kNone) << step.detail;
+    ASSERT_TRUE(step.ode);
+    EXPECT_EQ(step.ode->reason, Reason::kNone) << step.ode->detail;
+  }
+  options.engine = EngineChoice::kOde;
+  options.friction_factor = 0.05;
+  EXPECT_NE(ReplayHand(hand, solid(), plan, options).steps.back().reason, Reason::kNone);
+}
+
+TEST_F(OdeHandModelTest, AJointBetweenCoupledJointsIsRefused) {
+  kinematics::HandFile hand = HandWith({}, true);
+  kinematics::Finger& finger = hand.hand.fingers[0];
+  std::swap(finger.joints[1].drive, finger.joints[2].drive);
   try {
-    const OdeHand world(CoupledHand(), solid, kScale, {.mu = kMu, .mass_kg = kMass});
+    const OdeHand world(hand, solid(), kScale, WorldOptions());
     FAIL() << "not refused";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("engine ode: coupled joints of finger finger0 "
-                                                  "not supported"));
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("engine ode: joint finger0_joint2 between coupled joints"));
   }
 }
 
