@@ -57,7 +57,8 @@ set(regrasp_slow_tests
   ContourOracle.*
   Degenerate.*
   Discrimination.*
-  ConditionControlsTest.*
+  */ConditionControlsTest.*
+  OdeConditionsTest.*
   DrawOnSurface.GivesGood*
   */EveryPlanner.Obeys/*Quality
   FailureCausesTest.NameAnObjectThat*

@@ -19,7 +19,7 @@ void ExpectRod(const JointAxis& first, const JointAxis& second, double ratio) {
   const RodLine rod = RodLineOf(first, second, ratio);
   EXPECT_NEAR(rod.direction.norm(), 1, 1e-12);
   const double c = rod.direction.dot(VelocityAt(rod.point, second));
-  // A short lever would make the rod's force large.
+  // A short moment arm would make the rod's force large.
   EXPECT_GT(c, 1e-4);
   EXPECT_NEAR(rod.direction.dot(VelocityAt(rod.point, first)), -ratio * c, 1e-12);
 }

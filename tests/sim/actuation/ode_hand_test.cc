@@ -318,8 +318,8 @@ double Slope(const kinematics::HandFile& file, const plan::HandState& state, Fin
   return (energy(kStep) - energy(-kStep)) / (2 * kStep);
 }
 
-/// At rest the torque of a coupled actuator balances the weight of both links by the principle of
-/// virtual work.
+/// The torque of a motionless coupled actuator balances the weight of both links by the principle
+/// of virtual work.
 TEST_F(OdeHandModelTest, CoupledJointsAreInEquilibrium) {
   for (const kinematics::HandFile& hand : {CoupledHand(), TendonHand()}) {
     OdeHand world(hand, solid(), kScale, WorldOptions());
