@@ -30,6 +30,11 @@ def text(lines: str) -> str:
     return f'<pre style="white-space:pre-wrap">{html.escape(lines)}</pre>'
 
 
+def folded(title: str, lines: str) -> str:
+    """Return preformatted text that opens with a click on its title."""
+    return f"<details><summary>{html.escape(title)}</summary>{text(lines)}</details>"
+
+
 def table(head: list[str], rows: list[list[str]]) -> str:
     """Return an HTML table."""
     def row(cells, tag):

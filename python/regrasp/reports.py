@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from dataclasses import dataclass
 from typing import Any
@@ -48,7 +49,7 @@ class Report:
     Reports with the same `text` are equal. A pickle has `text`, `table` and `failure`, the object, the plan and
     the arguments of `validate`. The first use of images, pages or `trajectory` after unpickling validates again.
 
-    A notebook displays the interactive replay and the table. `text` is the content of report.json, `table`
+    A notebook displays the interactive replay, the verdict and a table of the steps with their margins. `text` is the content of report.json, `table`
     a text with one line per step and the verdict. `failure` is one line with the failure, its cause and
     a remedy, or None if the plan passes.
     """
@@ -194,7 +195,15 @@ class Report:
         return _regrasp.encode_png(self.overview())
 
     def _repr_html_(self) -> str:
-        return _html.frame(self._core.format_page(self._object._core, True), repr(self)) + _html.text(self.table)
+        replay = _html.frame(self._core.format_page(self._object._core, True), repr(self))
+        verdict = "pass" if self.passed else f"fail: {self.failure}"
+        rows = [_row(step, self._half_angle_deg) for step in self.steps]
+        return (replay + _html.text(f"verdict: {verdict}") + _html.table(_COLUMNS, rows)
+                + _html.folded("text of validate", self.table))
+
+    @property
+    def _half_angle_deg(self) -> float:
+        return self.data["settings"]["friction_half_angle_deg"]
 
     def __str__(self) -> str:
         return self.table
@@ -202,6 +211,31 @@ class Report:
     def __repr__(self) -> str:
         verdict = "pass" if self.passed else self.failure
         return f"<Report of {self.data['plan']['file']}: {verdict}>"
+
+
+_COLUMNS = ["step", "kind", "required friction angle (°)", "friction margin (°)", "displacement (mm)", "slip (mm)",
+            "verdict"]
+_NONE = "–"
+
+
+def _row(step: dict, half_angle_deg: float) -> list[str]:
+    """Return the cells of a step in the table of a notebook."""
+    closure, simulation = step["force_closure"], step["simulation"]
+    required = closure and closure["required_half_angle_deg"]
+    # Rounded to the safe side, as in the text of `validate`.
+    angles = [_NONE, _NONE] if required is None else [
+        f"{math.ceil(100 * required) / 100:.2f}", f"{math.floor(100 * (half_angle_deg - required)) / 100:.2f}"]
+    motion = [_NONE, _NONE] if simulation is None else [
+        _millimetres(simulation["displacement_m"]), _millimetres(simulation["slip_m"])]
+    verdict = step["verdict"] if step["reason"] is None else f"{step['verdict']}: {step['reason']}"
+    return [str(step["index"]), step["kind"], *angles, *motion, verdict]
+
+
+def _millimetres(metres: float | None) -> str:
+    """Return a length in millimetres. Motions of less than a micrometre are errors of the simulation."""
+    if metres is None:
+        return _NONE
+    return "<0.001" if metres < 1e-6 else f"{1e3 * metres:.2g}"
 
 
 def _size(size) -> tuple[int, int]:

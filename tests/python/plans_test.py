@@ -262,6 +262,18 @@ class PlansTest(RegraspCase):
         self.assertNotIn("<script", page)
         self.assertNotIn('"', page.split('srcdoc="')[1].split('" title=')[0])
         self.assertIn("required_deg", page)
+        below = page.split("</iframe>")[1]
+        self.assertIn("verdict: pass", below)
+        self.assertEqual(below.count("<tr>"), len(self.plan) + 2)
+        required, margin = below.split("<td>hold</td><td>")[1].split("</td><td>")[:2]
+        self.assertEqual(report.table.split("hold")[1].split()[0], required)
+        exact = report.steps[0]["force_closure"]["required_half_angle_deg"]
+        self.assertLessEqual(float(margin), report.data["settings"]["friction_half_angle_deg"] - exact)
+        self.assertAlmostEqual(float(margin), report.data["settings"]["friction_half_angle_deg"] - exact, delta=0.01)
+        self.assertNotIn("<pre", below.split("<table>")[1].split("</table>")[0])
+        weak = regrasp.validate(self.cube, self.plan, mu=0.05)._repr_html_().split("</iframe>")[1]
+        self.assertIn("verdict: fail: ", weak)
+        self.assertIn("<td>fail: not-force-closure</td>", weak)
         rows = self.plan._repr_html_()
         self.assertEqual(rows.count("<tr>"), len(self.plan) + 2)
         named = json.loads(self.plan.text)
