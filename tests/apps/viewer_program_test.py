@@ -121,6 +121,12 @@ class Viewer(ProgramCase):
         self.browser.resize(1000, 1000, media="print")
         self.assertEqual(self.visible(".still img"), 1)
         self.assertEqual(self.visible(".frames img"), frames - 1)
+        # The other frames follow, three in a row, before the table of steps.
+        still, table, *tops = self.browser.value("[...document.querySelectorAll('.still, table.cards, .frames figure')]"
+                                                 ".filter(e => e.getClientRects().length).map(e => Math.round(e.getBoundingClientRect().top))")
+        self.assertLess(still, tops[0])
+        self.assertEqual(tops[:3], [tops[0]] * min(3, frames - 1))
+        self.assertGreater(table, tops[-1])
         # There the legend is only next to the first image.
         beside = ("(p => [...document.querySelectorAll('.still img, .still .legend')].map("
                   "e => e.getBoundingClientRect()).every((b, i, all) => b.top < all[0].bottom))()")
