@@ -36,6 +36,7 @@
 #include "render/figures/solid_figure.h"
 #include "render/frames/step_scene.h"
 #include "report/pictures/hand_picture.h"
+#include "report/pictures/object_progress.h"
 
 namespace {
 
@@ -328,11 +329,17 @@ std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object
   }
   const report::HandPicture picture(file, plan, plan.scale * object.mass_properties().centroid);
   render::FigureHand hand = {picture.view(), picture.FingerNames(), {}};
+  report::ObjectProgress progress(picture.PlannedPoses());
   for (plan::EntryIndex i{0}; i <= std::ssize(plan.steps); ++i) {
     plan::Fault none;
     hand.snapshots.push_back(plan::MakePlannedSnapshot(plan, i, none, 0));
     picture.MarkActions(i, hand.snapshots.back());
     picture.Place(i, hand.snapshots.back(), none);
+    for (const plan::HandState& state : picture.StatesAlong(i)) {
+      progress.Follow(picture.X_WP() * state.pose);
+    }
+    const bool moves = i > 0 && std::holds_alternative<plan::Move>(plan.steps[i - 1]);
+    hand.progress.push_back(moves ? progress.Text() : "");
   }
   return std::make_unique<render::HandPanels>(dynamic_cast<const object::Polyhedron&>(object), plan,
                                               hand, solid);

@@ -12,6 +12,7 @@
 #include "render/figures/region_lines.h"
 #include "render/figures/solid_painter.h"
 #include "render/figures/surface_buffer.h"
+#include "render/frames/object_tint.h"
 #include "render/frames/sequence_cameras.h"
 #include "render/frames/step_scene.h"
 #include "render/picture/cairo_paint.h"
@@ -194,9 +195,12 @@ HandPanels::HandPanels(const object::Polyhedron& solid, const plan::Plan& plan,
       names_(hand.finger_names),
       model_(solid, plan.scale, plan.friction_angle, snapshots_, OptionsOf(hand, options)),
       camera_(MakeCameras(model_, snapshots_).common) {
+  TintByDirection(model_.body.surface);
   const std::vector<ShadedMesh> meshes = MakeLinkMeshes(*hand.view, model_.frame);
   for (plan::EntryIndex entry{0}; entry < count(); ++entry) {
-    captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry, names_));
+    const std::string progress = hand.progress.empty() ? "" : hand.progress[entry];
+    captions_.push_back(PanelLabel(entry) + " " + EntryTitle(plan, entry, names_) +
+                        (progress.empty() ? "" : " (" + progress + ")"));
     drawings_.push_back(DrawingOf(snapshots_[entry], meshes, options.body.crease_angle));
   }
   ChooseRows();

@@ -22,13 +22,17 @@ struct FigureHand {
   std::shared_ptr<const HandView> view;
   std::vector<std::string> finger_names;
   std::vector<plan::Snapshot> snapshots;  ///< object, fingers and links after each entry
+  /// Motion of the object up to the end of each entry, as in "36.7° of 90°", for its caption. Empty
+  /// texts and an empty array add nothing.
+  std::vector<std::string> progress = {};
 };
 
 /// The panels of a plan for a hand, one per entry, as line drawings for papers.
 ///
 /// Each panel shows the hand with its outlines and creases, the posed solid as in SolidPanels, and
 /// the contacts with friction cones and finger names. The solid is visible through the hand, and
-/// outlines of the hand behind the solid are dashed. An in-hand motion has the former pose as a
+/// outlines of the hand behind the solid are dashed. Faces of a solid are tinted by their direction
+/// in its frame (TintByDirection), unless it is a scan. An in-hand motion has the former pose as a
 /// dashed ghost and an arrow of the rotation. Placed and released fingers have arrows. The palm is
 /// fixed, and all panels have one scale and one view. Deterministic.
 class HandPanels final : public FigurePanels {

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "render/figures/surface_buffer.h"
 
@@ -28,39 +30,71 @@ constexpr double kSmallestArea = 1.5;
 /// Tolerance of the lines, points.
 constexpr double kTolerance = 0.15;
 
-std::vector<Polyline> InPanel(const std::vector<Polyline>& lines, double per_point,
-                              const Vector2d& corner) {
-  std::vector<Polyline> placed;
-  for (Polyline line : lines) {
-    for (Vector2d& p : line) p = corner + p / per_point;
-    placed.push_back(Simplified(line, kTolerance));
+/// Samples of a surface in a panel.
+class PanelSamples {
+ public:
+  PanelSamples(const Eigen::AlignedBox2d& box, const PanelCamera& camera)
+      : camera_(camera),
+        per_point_(std::min(kSamplesPerPoint, kMostSamples / box.sizes().maxCoeff())),
+        corner_(box.min() - Vector2d::Constant(kBorder / per_point_)),
+        buffer_(CountAlong(box.sizes().x()), CountAlong(box.sizes().y())) {}
+
+  [[nodiscard]] double per_point() const { return per_point_; }
+  [[nodiscard]] double per_unit() const { return per_point_ * camera_.scale; }
+  [[nodiscard]] SurfaceBuffer& buffer() { return buffer_; }
+
+  void Add(const ShadedMesh& surface, int label) {
+    const auto place = [&](const Vector3d& p) {
+      const Vector2d at = per_point_ * (camera_(p) - corner_);
+      return Vector3d(at.x(), at.y(), per_unit() * camera_.back().dot(p));
+    };
+    Eigen::Matrix3d turn = camera_.axes.transpose();
+    turn.row(1) *= -1;
+    buffer_.Add(surface, label, place, turn);
   }
-  return placed;
+  /// Return the outlines of the areas of samples that a predicate selects, in points.
+  template <class IsInside>
+  [[nodiscard]] std::vector<Polyline> Areas(const IsInside& is_inside) const {
+    return InPanel(
+        OutlineOf(buffer_.width(), buffer_.height(), kSmallestArea * per_point_, is_inside));
+  }
+  [[nodiscard]] std::vector<Polyline> InPanel(const std::vector<Polyline>& lines) const {
+    std::vector<Polyline> placed;
+    for (Polyline line : lines) {
+      for (Vector2d& p : line) p = corner_ + p / per_point_;
+      placed.push_back(Simplified(line, kTolerance));
+    }
+    return placed;
+  }
+
+ private:
+  [[nodiscard]] int CountAlong(double points) const {
+    return static_cast<int>(std::ceil(per_point_ * points)) + 2 * kBorder;
+  }
+
+  const PanelCamera& camera_;
+  double per_point_;
+  Vector2d corner_;
+  SurfaceBuffer buffer_;
+};
+
+Eigen::AlignedBox2d BoxOf(const ShadedMesh& surface, const PanelCamera& camera) {
+  Eigen::AlignedBox2d box;
+  for (const auto& corners : surface.triangles) {
+    for (const Vector3d& p : corners) box.extend(camera(p));
+  }
+  return box;
 }
 
 }  // namespace
 
 ScanOutline TraceScan(const ShadedMesh& surface, const PanelCamera& camera) {
-  Eigen::AlignedBox2d box;
-  for (const auto& corners : surface.triangles) {
-    for (const Vector3d& p : corners) box.extend(camera(p));
-  }
+  const Eigen::AlignedBox2d box = BoxOf(surface, camera);
   if (box.isEmpty()) return {};
-  const double per_point = std::min(kSamplesPerPoint, kMostSamples / box.sizes().maxCoeff());
-  const Vector2d corner = box.min() - Vector2d::Constant(kBorder / per_point);
-  const auto samples = [&](double points) {
-    return static_cast<int>(std::ceil(per_point * points)) + 2 * kBorder;
-  };
-  SurfaceBuffer buffer(samples(box.sizes().x()), samples(box.sizes().y()));
-  const double per_unit = per_point * camera.scale;
-  const auto place = [&](const Vector3d& p) {
-    const Vector2d at = per_point * (camera(p) - corner);
-    return Vector3d(at.x(), at.y(), per_unit * camera.back().dot(p));
-  };
-  Eigen::Matrix3d turn = camera.axes.transpose();
-  turn.row(1) *= -1;
-  buffer.Add(surface, 0, place, turn);
-  const double step = kDepthStep * per_unit;
+  PanelSamples samples(box, camera);
+  samples.Add(surface, 0);
+  const double step = kDepthStep * samples.per_unit();
+  SurfaceBuffer& buffer = samples.buffer();
   buffer.RemoveSpecks(step);
   const auto is_inside = [&](int x, int y) {
     return buffer.LabelAt(x, y) != SurfaceBuffer::kNothing;
@@ -75,12 +109,32 @@ ScanOutline TraceScan(const ShadedMesh& surface, const PanelCamera& camera) {
     return !is_at_rim(x, y) && !is_at_rim(x2, y2) && IsOutline(buffer, step, x, y, x2, y2);
   });
   ScanOutline outline;
-  outline.areas =
-      InPanel(OutlineOf(buffer.width(), buffer.height(), kSmallestArea * per_point, is_inside),
-              per_point, corner);
-  outline.lines = InPanel(sides.Trace(kShortestOutline * per_point), per_point, corner);
+  outline.areas = samples.Areas(is_inside);
+  outline.lines = samples.InPanel(sides.Trace(kShortestOutline * samples.per_point()));
   outline.lines.insert(outline.lines.end(), outline.areas.begin(), outline.areas.end());
   return outline;
+}
+
+std::vector<TintedArea> TraceTints(const ShadedMesh& surface, const PanelCamera& camera) {
+  const Eigen::AlignedBox2d box = BoxOf(surface, camera);
+  if (box.isEmpty()) return {};
+  std::map<std::array<unsigned char, 3>, ShadedMesh> by_color;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const Color& color = surface.colors[i][0];
+    by_color[{color.r, color.g, color.b}].Add(surface.triangles[i], surface.normals[i]);
+  }
+  PanelSamples samples(box, camera);
+  int label = 0;
+  for (const auto& [color, mesh] : by_color) samples.Add(mesh, label++);
+  std::vector<TintedArea> areas;
+  label = 0;
+  for (const auto& [color, mesh] : by_color) {
+    areas.push_back({{color[0], color[1], color[2]}, samples.Areas([&](int x, int y) {
+                       return samples.buffer().LabelAt(x, y) == label;
+                     })});
+    ++label;
+  }
+  return areas;
 }
 
 }  // namespace regrasp::render

@@ -20,4 +20,15 @@ struct ScanOutline {
 /// front and a back would instead be a zigzag with loose ends, and many paths.
 [[nodiscard]] ScanOutline TraceScan(const ShadedMesh& surface, const PanelCamera& camera);
 
+/// Visible area of one colour in a panel, points.
+struct TintedArea {
+  Color color;
+  std::vector<Polyline> areas;  ///< closed lines, filled with the even-odd rule
+};
+
+/// Trace the visible areas of a surface by the colour of the first corner of each triangle.
+/// @param surface  surface with colours.
+[[nodiscard]] std::vector<TintedArea> TraceTints(const ShadedMesh& surface,
+                                                 const PanelCamera& camera);
+
 }  // namespace regrasp::render

@@ -110,11 +110,22 @@ void SolidPainter::DrawBody() {
     AddOutline(cr_, std::array<Vector2d, 3>{camera_(a), camera_(b), camera_(c)});
   }
   FillAndStroke(cr_, kMaterial, kMaterial, kSeam);
+  FillTints();
   edges_ = Edges();
   SetColor(cr_, kHiddenInk);
   cairo_set_dash(cr_, &kHiddenDash, 1, 0);
   for (const auto& [a, b] : edges_.hidden) StrokeLine(cr_, camera_(a), camera_(b), kHiddenEdge);
   cairo_set_dash(cr_, nullptr, 0, 0);
+}
+
+void SolidPainter::FillTints() {
+  if (body_.surface.colors.empty()) return;
+  cairo_set_fill_rule(cr_, CAIRO_FILL_RULE_EVEN_ODD);
+  for (const TintedArea& tinted : TraceTints(body_.surface, camera_)) {
+    cairo_new_path(cr_);
+    for (const Polyline& area : tinted.areas) AddOutline(cr_, area);
+    FillAndStroke(cr_, tinted.color, tinted.color, kSeam);
+  }
 }
 
 void SolidPainter::DrawVisibleEdges() {

@@ -65,6 +65,7 @@ class SolidPainter {
 
   [[nodiscard]] bool IsScan() const { return !body_.shell.triangles.empty(); }
   void FillScan();
+  void FillTints();
   void StrokeScan(double width) const;
 
   cairo_t* cr_;

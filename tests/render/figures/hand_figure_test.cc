@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "planner/base/number.h"
 #include "planner/plan/projection.h"
+#include "render/frames/object_tint.h"
 #include "tests/fixtures/solids.h"
 
 namespace regrasp::render {
@@ -80,6 +82,38 @@ TEST(HandFigures, HaveAPanelPerEntryWithTheNamesOfFingers) {
   ASSERT_EQ(panels.count(), 3);
   EXPECT_EQ(panels.caption(0), "(a) hold: index, thumb");
   EXPECT_THAT(panels.caption(2), HasSubstr("release thumb"));
+}
+
+TEST(HandFigures, CaptionsStateTheMotionUpToNow) {
+  FigureHand hand = MakeHand(MakePlan());
+  const std::string without = MakePanels(hand).caption(1);
+  hand.progress = {"0° of 30°", "30° of 30°", ""};
+  const HandPanels panels = MakePanels(hand);
+  EXPECT_EQ(panels.caption(1), without + " (30° of 30°)");
+  EXPECT_EQ(panels.caption(2), MakePanels(MakeHand(MakePlan())).caption(2));
+}
+
+/// Of the colours of six directions, a view shows three.
+TEST(HandFigures, FacesOfTheSolidAreTintedByTheirDirection) {
+  const std::string svg = Svg(MakePanels(MakeHand(MakePlan()), {.view = {{30, 30}}}), 0);
+  int tints = 0;
+  ShadedMesh faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3d normal = sign * Vector3d::Unit(axis);
+      faces.Add({Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()}, {normal, normal, normal});
+    }
+  }
+  TintByDirection(faces);
+  for (const auto& colors : faces.colors) {
+    std::ostringstream fill;
+    fill.precision(8);
+    for (const int part : {colors[0].r, colors[0].g, colors[0].b}) {
+      fill << (fill.str().empty() ? "rgb(" : ",") << 100 * part / 255.0 << "%";
+    }
+    tints += static_cast<int>(Has(svg, fill.str()));
+  }
+  EXPECT_EQ(tints, 3);
 }
 
 TEST(HandFigures, AreDeterministicAndSmall) {
