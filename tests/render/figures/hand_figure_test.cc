@@ -93,7 +93,7 @@ TEST(HandFigures, CaptionsStateTheMotionUpToNow) {
   EXPECT_EQ(panels.caption(2), MakePanels(MakeHand(MakePlan())).caption(2));
 }
 
-/// Of the colours of six directions, a view shows three.
+/// A view shows three of the six colours.
 TEST(HandFigures, FacesOfTheSolidAreTintedByTheirDirection) {
   const std::string svg = Svg(MakePanels(MakeHand(MakePlan()), {.view = {{30, 30}}}), 0);
   int tints = 0;
