@@ -431,6 +431,7 @@ bool AreApart(const PosedShape& a, const PosedShape& b, double distance) {
   const Eigen::Isometry3d b_to_a = to_a * b.pose;
   const Vector3d direction = to_a.linear() * between;
   const double size = (to_a * a.sphere.centre).norm() + direction.norm() + radii;
+  // SizeOf has the 1-norm, which is at most √3 times as large; 4 allows for moving points of `b`.
   const double slack = 4 * kRounding * std::numbers::sqrt3 * size;
   const double enough = distance + a.shape->radius + b.shape->radius;
   const PosedPoints of_b{b.shape->points, b_to_a};
