@@ -72,7 +72,8 @@ struct ValidateOptions {
   std::optional<double> scale;
   sim::ReplayOptions replay;
   double joint_noise_deg = 0.5;
-  sim::TrialOptions trials;       ///< options of repeated replays; a count of 0: none
+  std::optional<double> position_noise;  ///< of trials, over the object's diameter
+  sim::TrialOptions trials;              ///< options of repeated replays; a count of 0: none
   std::string conditions;         ///< nominal, standard or a file of conditions; empty: not given
   std::string conditions_sha256;  ///< digest of that file; empty if there is none
   std::vector<sim::HandCondition> condition_list;  ///< conditions; set by Finish

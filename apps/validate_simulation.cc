@@ -7,6 +7,7 @@
 #include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
+#include "sim/actuation/hand_replay.h"
 
 namespace regrasp::apps {
 
@@ -163,7 +164,7 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
       .Values("the number of trials", {IntegerParser(options.trials.count, 1, kMostTrials)})
       .Key("min-pass-rate", NumberParser(options.trials.min_pass_rate,
                                          {.lower = 0, .upper = 1, .lower_included = false}))
-      .Key("position", NumberParser(options.trials.position_noise, share))
+      .Key("position", NumberParser(options.position_noise, share))
       .Key("friction", NumberParser(options.trials.friction_error, share))
       .Key("mass", NumberParser(options.trials.mass_error, share))
       .Key("joints", NumberParser(options.joint_noise_deg, {0, kMostJointNoise_deg}))
@@ -172,7 +173,7 @@ void AddTrials(CLI::App& app, ValidateOptions& options) {
              "settings except min-pass-rate are standard deviations\n"
              "min-pass-rate=RATE: required share of passing trials [default: 1]\n"
              "position=X: contacts along the surface, with --replay hand the initial object pose, "
-             "in object diameters [default: 0.01]\n"
+             "in object diameters [default: 0.01, with --replay hand 0.003]\n"
              "friction=X: relative error of the friction coefficient [default: 0.1]\n"
              "mass=X: relative error of the mass [default: 0.1]\n"
              "joints=DEG (--replay hand): measured joint angles [default: 0.5]");
@@ -220,6 +221,8 @@ void CheckReplay(ValidateOptions& options, const CLI::App& app) {
     throw InputError("--replay: found points and hand, expected one of them");
   }
   CheckResponse(options);
+  options.trials.position_noise = options.position_noise.value_or(
+      options.replay_by_hand ? sim::kHandPositionNoise : sim::TrialOptions().position_noise);
   if (options.replay_by_hand) {
     if (options.hand.empty()) throw InputError("--replay hand: requires --hand");
     if (options.replay.resisted_wrench)

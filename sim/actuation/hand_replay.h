@@ -86,6 +86,10 @@ class HandReplays {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Default of TrialOptions::position_noise in a replay by a hand: 0.3 mm on an object of 100 mm,
+/// the noise of the default camera (HandSensing).
+inline constexpr double kHandPositionNoise = 0.003;
+
 /// Replay a plan by its hand `trials.count` times in perturbed worlds.
 /// Friction and mass differ as in RunTrials. The initial object pose differs along and about each
 /// axis by a normal deviate (position_noise · D, and that over R in radians). Each measured joint

@@ -34,6 +34,10 @@ class Trials(ProgramCase):
         self.assertIn("trials: 3 of 3 pass: 100 %", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "verdict: pass in 3 of 3 trials")
 
+    def test_contacts_of_points_are_off_by_a_hundredth_of_the_diameter_by_default(self):
+        self.run_program(*self.arguments("--trials", "1"))
+        self.assertEqual(self.report()["trials"]["position_noise"], 0.01)
+
     NOISE = ("--trials", "12,position=0.1,friction=0.6", "--seed", "5")
 
     def test_with_much_noise_some_fail_and_with_them_the_plan(self):
