@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "planner/base/deadline.h"
@@ -27,6 +28,8 @@ struct GaitRequest : planning::InHandTask {
   grasp::Grasp goal_grasp;   ///< grasp in object units; empty: any grasp
   std::uint64_t seed = 0;
   std::int64_t most_expanded = kDefaultExpanded;
+  /// Number of expanded stances without progress along the track after which the search ends.
+  std::int64_t patience = std::numeric_limits<std::int64_t>::max();
   /// Select the executable gait that fails under the fewest conditions (`rate`), among these the
   /// one with the largest tolerance margin (planning::ExecutionResult::tolerance_margin), instead
   /// of the first one. Requires a simulator.

@@ -39,6 +39,13 @@ struct Budget {
   double time;            ///< fraction of the remaining time
 };
 
+/// Bounds of one attempt. A search ends when it stagnates, so that searches that are far from the
+/// goal but advance are not abandoned, and those in a dead end are.
+struct Patience {
+  std::int64_t expanded;  ///< expanded stances without progress along the track
+  double time;            ///< fraction of the remaining time
+};
+
 /// Margins with modelled rolling, larger ones first.
 constexpr std::array kRolling = {RobustnessMargins{0.05, 1.5e-3, 0.2},
                                  RobustnessMargins{0.02, 1.5e-3, 0.1}};
@@ -49,22 +56,23 @@ constexpr std::size_t kMaxLengthFactor = 3;
 constexpr std::size_t kMaxExtraSegments = 12;
 
 /// Margins for simulated edges, assigned to initial poses in turn.
-/// Two of three do not model rolling, because these searches are faster; with rolling, more gaits
-/// execute.
+/// Two of three model rolling: most of these gaits execute. Searches without it are faster.
 constexpr RobustnessMargins kNotRolling = {0.05, 0.5e-3};
-constexpr std::array kEdgeMargins = {kNotRolling, kNotRolling, kRolling.front()};
-/// Expansions per quarter turn in the first round; doubled in each further round.
-constexpr std::int64_t kExpandedInRound = 300;
+constexpr std::array kEdgeMargins = {RobustnessMargins{0.05, 0.5e-3, 0.0},
+                                     RobustnessMargins{0.05, 1e-3, 0.1}, kNotRolling};
+/// Patience in the first round, and its growth per round.
+constexpr std::int64_t kEdgePatience = 300;
+constexpr double kPatienceGrowth = 1.25;
 /// Number of rounds; the maximum applies if there is a time limit.
-constexpr int kRounds = 2;
-constexpr int kMaxRounds = 6;
+constexpr int kRounds = 3;
+constexpr int kMaxRounds = 12;
 constexpr int kStreamShift = 32;  ///< bits by which the random stream is shifted into the seed
 /// Complete gaits are simulated first.
 /// For short rotations their rolling is not modelled, so that they may begin at any angle; for
 /// other tasks it is, because ring hands execute most of these.
 constexpr std::array kShortTurnMargins = {kNotRolling, RobustnessMargins{0.02, 0}};
 constexpr double kShortTurn = 1.75;  ///< radians
-constexpr Budget kWholeBudget = {40, 0.15};
+constexpr Patience kWholePatience = {40, 0.15};
 /// Maximum number of such attempts with different initial poses.
 /// Most of these gaits are a single motion, which is found quickly and either executes or not.
 constexpr int kWholeAttempts = 4;
@@ -90,7 +98,7 @@ enum class Simulate {
 /// One search of a gait: a row of the schedule.
 struct Attempt {
   std::span<const RobustnessMargins> margin_sets;  ///< assigned to the initial poses in turn
-  Budget budget;
+  Patience patience;
   Simulate simulate;
   std::uint64_t stream;           ///< random stream, added to the seed
   bool repeats_previous = false;  ///< skipped if the previous attempt found no gait
@@ -112,12 +120,12 @@ std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
       Schedule& schedule = schedules.emplace_back();
       for (int again = 0; again < kWholeAttempts; ++again) {
         schedule.push_back(
-            {{&margins, 1}, kWholeBudget, Simulate::kGait, stream + again, again > 0});
+            {{&margins, 1}, kWholePatience, Simulate::kGait, stream + again, again > 0});
       }
     }
-    const int doublings = std::min(round, kMaxRounds - 1);
-    const Budget budget{kExpandedInRound << doublings, 1};
-    schedules.push_back({{kEdgeMargins, budget, Simulate::kEdges, stream}});
+    const double growth = std::pow(kPatienceGrowth, std::min(round, kMaxRounds - 1));
+    const Patience patience{std::llround(kEdgePatience * growth), 1};
+    schedules.push_back({{kEdgeMargins, patience, Simulate::kEdges, stream}});
   }
   return schedules;
 }
@@ -258,7 +266,8 @@ class AttemptRunner {
     asked.deadline = deadline;
     asked.progress = [this](std::string_view text) { Report(text); };
     if (attempt.simulate == Simulate::kGait) asked.simulate = nullptr;
-    Bound(asked, attempt.budget);
+    asked.patience = attempt.patience.expanded;
+    asked.deadline = asked.deadline.After(attempt.patience.time);
     Outcome outcome{find_(asked, attempt.margin_sets), attempt.simulate};
     if (!outcome.found.gait) return outcome;
     Report(kSimulating);
@@ -336,6 +345,11 @@ std::optional<Gait> MultiStartSearch::Search() {
         start->search->Run(before + kExpandedPerRun, request_.deadline);
     if (gait) return MergeMoves(start->terms.setup, *gait);
     expanded_ += start->search->counts().expanded - before;
+    if (const int farthest = start->search->counts().farthest; farthest > farthest_) {
+      farthest_ = farthest;
+      expanded_at_farthest_ = expanded_;
+    }
+    if (expanded_ - expanded_at_farthest_ >= request_.patience) return std::nullopt;
     request_.progress("searching a gait: " + std::to_string(expanded_) + " stances expanded from " +
                       std::to_string(starts_.size()) + " initial poses");
   }

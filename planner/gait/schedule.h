@@ -36,8 +36,8 @@ class MultiStartSearch {
   MultiStartSearch(const GaitRequest& request, std::vector<SearchTerms> terms, GaitEnds ends);
 
   /// Run the search.
-  /// @returns the first gait, with merged in-hand motions; nullopt if the budget or the deadline is
-  ///     exhausted or all searches have ended.
+  /// @returns the first gait, with merged in-hand motions; nullopt if the budget, the patience or
+  ///     the deadline is exhausted, or all searches have ended.
   [[nodiscard]] std::optional<Gait> Search();
 
   /// Return the counts of each initial pose.
@@ -76,7 +76,9 @@ class MultiStartSearch {
   int drawings_ = 0;
   std::size_t opened_ = 0;  ///< number of used poses
   std::vector<std::unique_ptr<Start>> starts_;
-  std::int64_t expanded_ = 0;  ///< number of expansions over all searches
+  std::int64_t expanded_ = 0;              ///< number of expansions over all searches
+  int farthest_ = 0;                       ///< farthest track step of all searches
+  std::int64_t expanded_at_farthest_ = 0;  ///< number of expansions when it was reached
 };
 
 /// Robustness margins of a gait beyond the request. Fingers do not slide in such gaits.
