@@ -62,6 +62,7 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
                                    const report::DrawingOptions& options,
                                    const std::vector<report::HandSample>& samples,
                                    const std::vector<MovingFile>& files,
+                                   const std::filesystem::path& folder,
                                    const report::Report& report) {
   std::vector<render::AnimationFormat> formats;
   for (const MovingFile& file : files) formats.push_back(file.format);
@@ -73,8 +74,15 @@ report::PagePicture WriteAnimation(const object::Object& object, const plan::Pla
   // A video has controls.
   const auto video = std::ranges::find(formats, render::AnimationFormat::kMp4);
   const auto shown = video == formats.end() ? 0 : video - formats.begin();
-  return {std::move(moving.bytes[shown]), moving.width, moving.height,
-          render::MediaType(formats[shown])};
+  report::PagePicture picture = {std::move(moving.bytes[shown]), moving.width, moving.height,
+                                 render::MediaType(formats[shown])};
+  if (picture.bytes.size() > report::kLargestMoving) {
+    const auto absolute = [](const std::filesystem::path& path) {
+      return std::filesystem::absolute(path).lexically_normal();
+    };
+    picture.file = absolute(files[shown].path).lexically_proximate(absolute(folder)).string();
+  }
+  return picture;
 }
 
 }  // namespace regrasp::apps

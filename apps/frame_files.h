@@ -50,12 +50,15 @@ struct MovingFile {
 /// @param options  drawing options with the size of the animations.
 /// @param samples  recorded states of the hand, ascending in time; may be empty.
 /// @param files    files to write, at least one.
+/// @param folder   folder of the page. The page links to an animation larger than
+///                 report::kLargestMoving.
 /// @returns the first video, or the first animation without a video.
 /// @throws EnvironmentError  as WriteFrames.
 report::PagePicture WriteAnimation(const object::Object& object, const plan::Plan& plan,
                                    const report::DrawingOptions& options,
                                    const std::vector<report::HandSample>& samples,
                                    const std::vector<MovingFile>& files,
+                                   const std::filesystem::path& folder,
                                    const report::Report& report);
 
 }  // namespace regrasp::apps

@@ -173,7 +173,7 @@ report::PagePicture Animate(const ValidateOptions& options, render::FrameOptions
   return WriteAnimation(
       *task.object->object, task.plan,
       {.frame = frame, .hand = hand, .workers = options.workers, .on_picture = count.reporter()},
-      record.viewer.samples(), files, report);
+      record.viewer.samples(), files, folder, report);
 }
 
 /// Return the names of the hand's fingers; none without a hand.

@@ -261,6 +261,7 @@ validation::ValidationResult ValidateFiles(const ValidateOptions& options, const
   validation::ValidationResult result = validation::Validate(RequestOf(options, task), observer);
   const object::ObjectFile& object = *task.object;
   result.report.measures += object::UnitText(object.unit);
+  result.report.has_no_unit = object.unit.empty();
   result.report.object_file = object.file;
   result.report.object_sha256 = object.sha256;
   return result;

@@ -49,9 +49,9 @@ class Report:
     Reports with the same `text` are equal. A pickle has `text`, `table` and `failure`, the object, the plan and
     the arguments of `validate`. The first use of images, pages or `trajectory` after unpickling validates again.
 
-    A notebook displays the interactive replay, the verdict and a table of the steps with their margins. `text` is the content of report.json, `table`
-    a text with one line per step and the verdict. `failure` is one line with the failure, its cause and
-    a remedy, or None if the plan passes.
+    A notebook displays the interactive replay, the verdict and a table of the steps with their margins. `text` is
+    the content of report.json, `table` a text with one line per step and the verdict. `failure` is one line with
+    the failure, its cause and a remedy, or None if the plan passes.
     """
 
     def __init__(self, core: _regrasp.Report, object: Object, plan: Plan, arguments: dict[str, Any]):

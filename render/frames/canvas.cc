@@ -1,15 +1,16 @@
 #include "render/frames/canvas.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "render/frames/offscreen_context.h"
+#include "render/frames/samples.h"
 #include "render/frames/shape_painter.h"
 
 namespace regrasp::render {
@@ -19,13 +20,11 @@ namespace {
 /// Maximum number of samples per band. A frame is drawn in bands to bound its memory (64 MB).
 constexpr int kMaxBandSamples = 1 << 24;
 
+/// Margin around the projected bounds of a drawing, pixels: antialiased edges and rounding.
+constexpr double kBoxMargin = 3;
+
 /// Weights of layers are multiples of 1 / kOne.
 constexpr int kOne = 256;
-constexpr int kFullAlpha = 255;
-
-/// Reduction of a veil's opacity in the middle of a window, and width of the transition per radius.
-constexpr double kWindowClearness = 0.7;
-constexpr double kWindowRim = 0.55;
 
 /// Opacity of the rims of a veil behind a solid.
 constexpr double kHiddenRimOpacity = 0.35;
@@ -139,100 +138,29 @@ std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   return weights;
 }
 
-/// Add a band of RGBA samples, from bottom to top, to the sums of their pixels.
-void AddSamples(const unsigned char* samples, int width, int rows, int factor, int weight,
-                std::vector<std::uint32_t>& sums) {
-  const int row = 4 * width;
-  std::vector<std::uint16_t> column(row);  // sums over the sample rows of one pixel row
-  std::uint32_t* out = sums.data();
-  for (int bottom = rows; bottom > 0; bottom -= factor) {
-    std::ranges::fill(column, 0);
-    for (int k = 1; k <= factor; ++k) {
-      const unsigned char* in = samples + std::size_t(row) * (bottom - k);
-      for (int i = 0; i < row; ++i) column[i] += in[i];
+/// Restrict drawing to a box.
+void SetScissor(const SampleBox& box) {
+  gl().Scissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+  gl().Enable(GL_SCISSOR_TEST);
+}
+
+/// Return for each mesh triangles with the corners of its bounding box.
+std::vector<ShadedMesh> BoundsOf(const std::vector<ShadedMesh>& meshes) {
+  std::vector<ShadedMesh> bounds(meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    Eigen::AlignedBox3d box;
+    for (const auto& corners : meshes[i].triangles) {
+      for (const Eigen::Vector3d& p : corners) box.extend(p);
     }
-    for (int x = 0; x < row; out += 3) {
-      for (int i = 0; i < factor; ++i, x += 4) {
-        for (int channel = 0; channel < 3; ++channel) out[channel] += weight * column[x + channel];
-      }
-    }
-  }
-}
-
-/// A band of samples that starts at row `top` of the image, stored from the last row up.
-struct SampleBand {
-  int width, top, rows, factor;
-};
-
-/// Columns and rows of samples: the first ones, and those after the last.
-struct SampleBox {
-  int left, bottom, right, top;
-  [[nodiscard]] bool empty() const { return left >= right || bottom >= top; }
-};
-
-/// Return the smallest box that contains all samples whose alpha is not 0.
-SampleBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band) {
-  SampleBox box = {band.width, band.rows, 0, 0};
-  for (int y = 0; y < band.rows; ++y) {
-    const unsigned char* row = samples.data() + std::size_t{4} * band.width * y;
-    int left = 0;
-    while (left < band.width && row[4 * left + 3] == 0) ++left;
-    if (left == band.width) continue;
-    int right = band.width;
-    while (row[4 * right - 1] == 0) --right;
-    box = {std::min(box.left, left), std::min(box.bottom, y), std::max(box.right, right), y + 1};
-  }
-  return box;
-}
-
-/// Blend two channels of a sample, each in the lower byte of half a word, rounded to the nearest.
-std::uint32_t MixPair(std::uint32_t color, std::uint32_t sample, std::uint32_t alpha) {
-  // For 0 ≤ x ≤ 255², round(x / 255) = (t + t / 256) / 256 with t = x + 128.
-  constexpr std::uint32_t kPair = 0x00ff00ff, kHalf = 0x00800080;
-  const std::uint32_t t = color * alpha + sample * (kFullAlpha - alpha) + kHalf;
-  return ((t + ((t >> 8) & kPair)) >> 8) & kPair;
-}
-
-/// Lay a colour over a sample, whose alpha changes too.
-void Lay(const unsigned char* color, int alpha, unsigned char* sample) {
-  constexpr std::uint32_t kPair = 0x00ff00ff;
-  std::uint32_t over = 0, below = 0;
-  std::memcpy(&over, color, sizeof(over));
-  std::memcpy(&below, sample, sizeof(below));
-  const std::uint32_t mixed = MixPair(over & kPair, below & kPair, alpha) |
-                              MixPair((over >> 8) & kPair, (below >> 8) & kPair, alpha) << 8;
-  std::memcpy(sample, &mixed, sizeof(mixed));
-}
-
-/// Lay an image with its own alpha over samples.
-void LayVisible(const std::vector<unsigned char>& image, std::vector<unsigned char>& samples) {
-  for (std::size_t i = 0; i < samples.size(); i += 4) {
-    if (image[i + 3] != 0) Lay(&image[i], image[i + 3], &samples[i]);
-  }
-}
-
-/// Reduce the opacity of samples inside windows.
-void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band,
-                   std::vector<unsigned char>& samples) {
-  for (const Window& window : windows) {
-    const Eigen::Vector2d centre = band.factor * window.centre - Eigen::Vector2d(0, band.top);
-    const double radius = band.factor * window.radius;
-    const auto clamp = [](double value, int most) {
-      return static_cast<int>(std::clamp<double>(value, 0, most));
+    if (box.isEmpty()) continue;
+    const auto corner = [&box](int k) {
+      return box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k));
     };
-    const int last_x = clamp(centre.x() + radius + 1, band.width);
-    const int last_y = clamp(centre.y() + radius + 1, band.rows);
-    for (int y = clamp(centre.y() - radius, band.rows); y < last_y; ++y) {
-      for (int x = clamp(centre.x() - radius, band.width); x < last_x; ++x) {
-        const double away = (Eigen::Vector2d(x, y) - centre).norm() / radius;
-        if (away >= 1) continue;
-        const double fade = std::min(1.0, (1 - away) / kWindowRim);
-        const double share = 1 - kWindowClearness * window.strength * fade * fade * (3 - 2 * fade);
-        unsigned char& alpha = samples[4 * (std::size_t(band.width) * (band.rows - 1 - y) + x) + 3];
-        alpha = static_cast<unsigned char>(std::lround(share * alpha));
-      }
-    }
+    bounds[i].triangles = {{corner(0), corner(1), corner(2)},
+                           {corner(3), corner(4), corner(5)},
+                           {corner(6), corner(7), corner(7)}};
   }
+  return bounds;
 }
 
 }  // namespace
@@ -244,6 +172,7 @@ class Canvas::Impl {
         height_(height),
         factor_(supersampling),
         band_rows_(std::clamp(kMaxBandSamples / (width * factor_ * factor_), 1, height)),
+        bounds_(BoundsOf(meshes)),
         meshes_(std::make_shared<const std::vector<VertexArrays>>(meshes.begin(), meshes.end())),
         context_(width * factor_, band_rows_ * factor_) {
     Init();
@@ -253,6 +182,7 @@ class Canvas::Impl {
         height_(other.height_),
         factor_(other.factor_),
         band_rows_(other.band_rows_),
+        bounds_(other.bounds_),
         meshes_(other.meshes_),
         context_(width_ * factor_, band_rows_ * factor_) {
     Init();
@@ -265,7 +195,7 @@ class Canvas::Impl {
     gl().ClearColor(paper.r / kFull, paper.g / kFull, paper.b / kFull, 0);
     Image image = MakeImage(width_, height_);
     for (int top = 0; top < height_; top += band_rows_) {
-      DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, image);
+      DrawBand(camera, drawing, {top, std::min(band_rows_, height_ - top), height_}, paper, image);
     }
     return image;
   }
@@ -274,41 +204,84 @@ class Canvas::Impl {
   /// Return a copy of the present samples.
   [[nodiscard]] std::vector<unsigned char> CopySamples(const SampleBand& band) const {
     std::vector<unsigned char> copy;
-    CopySamples(band, copy);
+    CopySamples(band, {0, 0, band.width, band.rows}, copy);
     return copy;
   }
-  /// Copy the present samples to a buffer, whose memory is used again.
-  void CopySamples(const SampleBand& band, std::vector<unsigned char>& copy) const {
-    const unsigned char* seen = context_.pixels().data();
-    copy.assign(seen, seen + std::size_t{4} * band.width * band.rows);
+  /// Copy the present samples of a box to a buffer of the size of the band.
+  void CopySamples(const SampleBand& band, const SampleBox& box,
+                   std::vector<unsigned char>& copy) const {
+    copy.resize(std::size_t{4} * band.width * band.rows);
+    for (int y = box.bottom; y < box.top; ++y) {
+      const std::size_t row = std::size_t(y) * band.width;
+      std::copy_n(context_.pixels().data() + 4 * (row + box.left),
+                  std::size_t{4} * (box.right - box.left), copy.data() + 4 * (row + box.left));
+    }
   }
 
-  /// Compose the samples of a drawing with a solid.
+  /// Compose the samples of a drawing with a solid, in the box that contains the drawing.
   const std::vector<unsigned char>& ComposeSolid(const ShapePainter& painter,
-                                                 const Drawing& drawing, const SampleBand& band) {
+                                                 const Drawing& drawing, const SampleBand& band,
+                                                 const SampleBox& box) {
+    SetScissor(box);
     if (drawing.veil) {
       DrawVeil(painter, *drawing.veil);
-      CopySamples(band, rims_);
+      CopySamples(band, box, rims_);
       HideVeil(painter, drawing);
-      CopySamples(band, veil_);
-      FadeInWindows(drawing.veil->windows, band, veil_);
+      CopySamples(band, box, veil_);
+      FadeInWindows(drawing.veil->windows, band, box, veil_);
     }
     DrawWithSolid(painter, drawing);
-    CopySamples(band, samples_);
-    LayXray(painter, drawing, band);
-    if (drawing.veil) LayVisible(veil_, samples_);
+    CopySamples(band, box, samples_);
+    LayXray(painter, drawing, band, box);
+    if (drawing.veil) LayVisible(veil_, band, box, samples_);
+    gl().Disable(GL_SCISSOR_TEST);
     return samples_;
+  }
+
+  /// Return the pixels of a band that a drawing with a solid can change, as samples.
+  [[nodiscard]] SampleBox BoxOf(const Camera& camera, const Drawing& drawing,
+                                const SampleBand& band) const {
+    ProjectedExtent extent(camera.axes, bounds_);
+    const auto add = [&extent](const std::vector<Shape>& shapes) {
+      for (const Shape& shape : shapes) extent.Add(shape.form);
+    };
+    add(drawing.shapes);
+    add(drawing.solid->shapes);
+    if (drawing.veil) {
+      for (const auto* shapes :
+           {&drawing.veil->shapes, &drawing.veil->rims, &drawing.veil->xray_rims}) {
+        add(*shapes);
+      }
+    }
+    Eigen::AlignedBox2d pixels;
+    for (const Eigen::Vector3d& p : extent.points()) {
+      // A point next to or behind the eye has no useful projection.
+      const bool is_seen = camera.projection == Projection::kOrthographic || camera.Depth(p) > 0;
+      const Eigen::Vector2d pixel = camera.Project(p);
+      if (!is_seen || !pixel.allFinite()) return {0, 0, band.width, band.rows};
+      pixels.extend(pixel);
+    }
+    if (pixels.isEmpty()) return {0, 0, 0, 0};
+    const int top = band.top / factor_, rows = band.rows / factor_;
+    const auto clamp = [](double value, int most) {
+      return static_cast<int>(std::clamp<double>(value, 0, most));
+    };
+    const Eigen::Vector2d first = pixels.min().array().floor() - kBoxMargin;
+    const Eigen::Vector2d last = pixels.max().array().ceil() + kBoxMargin;
+    SampleBox box = {clamp(first.x(), width_), rows - clamp(last.y() - top, rows),
+                     clamp(last.x(), width_), rows - clamp(first.y() - top, rows)};
+    for (int* limit : {&box.left, &box.bottom, &box.right, &box.top}) *limit *= factor_;
+    return box;
   }
 
   /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has
   /// rims of a veil (Veil::xray_rims), even if the solid hides them.
-  void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band) {
-    const SampleBox box = VisibleBox(samples_, band);
+  void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band,
+               const SampleBox& within) {
+    const SampleBox box = VisibleBox(samples_, band, within);
     if (box.empty()) return;
-    gl().Scissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
-    gl().Enable(GL_SCISSOR_TEST);
+    SetScissor(box);
     DrawXray(painter, drawing);
-    gl().Disable(GL_SCISSOR_TEST);
     const unsigned char* seen = context_.pixels().data();
     const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
     const auto rim = static_cast<int>(std::lround(kFullAlpha * kHiddenRimOpacity));
@@ -333,7 +306,7 @@ class Canvas::Impl {
     all.insert(all.end(), drawing.veil->shapes.begin(), drawing.veil->shapes.end());
     DrawPass(painter, drawing, all);
     std::vector<unsigned char> veil = CopySamples(band);
-    FadeInWindows(drawing.veil->windows, band, veil);
+    FadeInWindows(drawing.veil->windows, band, {0, 0, band.width, band.rows}, veil);
     // Samples in front of the covers keep their alpha.
     SetMask(false, true);
     gl().Color4ub(0, 0, 0, 0);
@@ -367,17 +340,23 @@ class Canvas::Impl {
     InitState();
   }
 
-  void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Image& image) {
+  void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Color paper,
+                Image& image) {
     const SampleBand samples = {width_ * factor_, band.top * factor_, band.rows * factor_, factor_};
     gl().Viewport(0, 0, samples.width, samples.rows);
     SetCamera(camera, band);
     const ShapePainter painter(camera, *meshes_);
     std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
     const auto add = [&](const unsigned char* from, int weight) {
-      AddSamples(from, samples.width, samples.rows, factor_, weight, sums);
+      AddSamples(from, samples, {0, 0, samples.width, samples.rows}, weight, sums);
     };
     if (drawing.solid) {
-      add(ComposeSolid(painter, drawing, samples).data(), kOne);
+      const std::uint32_t full = kOne * factor_ * factor_;
+      const SampleBox box = BoxOf(camera, drawing, samples);
+      FillOutside(box, samples, {full * paper.r, full * paper.g, full * paper.b}, sums);
+      if (!box.empty()) {
+        AddSamples(ComposeSolid(painter, drawing, samples, box).data(), samples, box, kOne, sums);
+      }
     } else if (drawing.veil) {
       add(ComposeLayers(painter, drawing, samples).data(), kOne);
     } else {
@@ -403,6 +382,7 @@ class Canvas::Impl {
 
   int width_, height_, factor_;
   int band_rows_;
+  std::vector<ShadedMesh> bounds_;  ///< a triangle per three corners of the bounding box of a mesh
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;

@@ -35,6 +35,9 @@ constexpr double kClusterOpacity = 0.85;
 /// Size of the details of links that an animation omits, pixels.
 constexpr double kLinkDetail = 1.2;
 
+/// Distance of the eye of an orthographic camera, in diameters.
+constexpr double kFarEye = 1e4;
+
 /// Opacity of fingers behind an opaque object.
 constexpr double kXray = 0.6;
 /// Opacity of the near surface, and of the far surface behind it.
@@ -86,7 +89,8 @@ class FrameRenderer::Impl {
       : model_(object, scale, friction_angle, snapshots, options),
         style_{FontSize(options.width, options.height), GroundOf(options.background)},
         cameras_(MakeCameras(model_, snapshots)),
-        canvas_(model_.CanvasMeshes(LinkDetail()), width(), height(), options.supersampling) {}
+        canvas_(model_.CanvasMeshes(LinkDetail(), LinkEyes()), width(), height(),
+                options.supersampling) {}
 
   [[nodiscard]] int width() const { return cameras_.common.width; }
   [[nodiscard]] int height() const { return cameras_.common.height; }
@@ -131,6 +135,24 @@ class FrameRenderer::Impl {
   [[nodiscard]] double LinkDetail() const {
     if (!model_.options.animated) return 0;
     return kLinkDetail / cameras_.common.PixelsPerUnit(Vector3d::Zero());
+  }
+
+  /// Return the positions of the eye relative to each link, in all frames; empty if the poses of
+  /// the links are not known.
+  [[nodiscard]] std::vector<std::vector<Vector3d>> LinkEyes() const {
+    if (!model_.options.animated || !model_.hand || model_.options.links_W.empty()) return {};
+    const Camera& camera = cameras_.common;
+    const bool perspective = camera.projection == Projection::kPerspective;
+    const Vector3d eye = perspective ? camera.position : Vector3d(kFarEye * camera.axes.col(2));
+    std::vector<std::vector<Vector3d>> eyes(model_.options.hand->size());
+    for (const std::vector<Eigen::Isometry3d>& links_W : model_.options.links_W) {
+      for (std::size_t i = 0; i < links_W.size(); ++i) {
+        Eigen::Isometry3d pose = links_W[i];
+        pose.translation() = model_.frame.FromWorld(pose.translation());
+        eyes[i].emplace_back(pose.inverse() * eye);
+      }
+    }
+    return eyes;
   }
 
   /// Draw rings, texts, marks and insets.

@@ -73,6 +73,9 @@ struct FrameOptions {
   /// Hand that executes the plan; null for fingers without a hand. With a hand the palm is fixed in
   /// the image, and no frame has its own camera.
   std::shared_ptr<const HandView> hand = nullptr;
+  /// Poses of the hand's links in all frames of an animation: metres, world frame. If they are
+  /// given, parts of links that none of these frames shows are not drawn.
+  std::vector<std::vector<Eigen::Isometry3d>> links_W = {};
   /// Additional points that must be visible at any distance: metres, world frame.
   std::vector<Eigen::Vector3d> reached = {};
   Background background = Background::kWhite;

@@ -97,10 +97,11 @@ std::vector<Shape> FrameModel::FingerShapes(const std::vector<FingerGlyph>& fing
   return shapes;
 }
 
-std::vector<ShadedMesh> FrameModel::CanvasMeshes(double link_detail) const {
+std::vector<ShadedMesh> FrameModel::CanvasMeshes(
+    double link_detail, std::span<const std::vector<Vector3d>> eyes) const {
   std::vector<ShadedMesh> all = meshes;
   if (!options.hand) return all;
-  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame, link_detail)) {
+  for (ShadedMesh& mesh : MakeHandMeshes(*options.hand, frame, link_detail, eyes)) {
     all.push_back(std::move(mesh));
   }
   return all;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planner/object/object.h"
@@ -34,7 +35,9 @@ struct FrameModel {
   /// Return all meshes of the canvas.
   /// @param link_detail  size of the details of links that are omitted, in diameters
   ///                     (ReduceDetail).
-  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes(double link_detail) const;
+  /// @param eyes         positions of the eye relative to the links (MakeHandMeshes).
+  [[nodiscard]] std::vector<ShadedMesh> CanvasMeshes(
+      double link_detail, std::span<const std::vector<Eigen::Vector3d>> eyes = {}) const;
   /// Return whether the object is drawn opaque.
   [[nodiscard]] bool opaque() const { return !planar && !options.glass; }
 

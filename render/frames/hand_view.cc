@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
+#include "planner/base/number.h"
 #include "render/frames/mesh_detail.h"
+#include "render/frames/visible_part.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
@@ -27,6 +30,11 @@ constexpr double kHandRim = 0.006;
 /// Offset of a link's surface per preceding joint, in diameters. Without it two links with the same
 /// sphere at a joint would flicker.
 constexpr double kHair = 1.5e-3;
+
+/// Largest angle between a position of the eye relative to a link and the one that represents it.
+constexpr double kEyeAngle = Radians(6);
+/// Size of the pixels that decide which triangles are visible, per size of omitted details.
+constexpr double kSeenDetail = 0.5;
 
 /// Radius of a window around the middle of fingertip and cone, in diameters.
 constexpr double kWindow = 0.16;
@@ -115,10 +123,21 @@ bool Touches(const plan::FingerState& finger) {
 std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand, const NormalizedFrame& frame,
                                        double tolerance) {
   std::vector<ShadedMesh> meshes;
+  std::vector<ShadedMesh> reduced;
   for (const HandLinkView& view : hand) {
-    ShadedMesh mesh = Normalized(view.mesh, frame);
-    if (tolerance > 0) mesh = ReduceDetail(mesh, tolerance);
-    OrientOutward(mesh);
+    // The links of several fingers are often equal.
+    const auto equal = std::ranges::find_if(hand, [&](const HandLinkView& other) {
+      return other.mesh.triangles == view.mesh.triangles && other.mesh.normals == view.mesh.normals;
+    });
+    if (equal < hand.begin() + std::ssize(reduced)) {
+      reduced.push_back(reduced[equal - hand.begin()]);
+    } else {
+      ShadedMesh mesh = Normalized(view.mesh, frame);
+      if (tolerance > 0) mesh = ReduceDetail(mesh, tolerance);
+      OrientOutward(mesh);
+      reduced.push_back(std::move(mesh));
+    }
+    ShadedMesh mesh = reduced.back();
     if (view.link.joints > 0) Grow(kHair * view.link.joints, mesh);
     meshes.push_back(std::move(mesh));
   }
@@ -126,10 +145,25 @@ std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand, const NormalizedFra
 }
 
 std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand, const NormalizedFrame& frame,
-                                       double tolerance) {
+                                       double tolerance,
+                                       std::span<const std::vector<Vector3d>> eyes) {
   std::vector<ShadedMesh> meshes;
+  std::optional<OffscreenContext> context;
+  if (!eyes.empty()) context.emplace(kVisibleSide, kVisibleSide);
   for (ShadedMesh& mesh : MakeLinkMeshes(hand, frame, tolerance)) {
-    meshes.push_back(MakeShell(mesh, kHandRim));
+    const std::size_t link = meshes.size() / 2;
+    ShadedMesh shell = MakeShell(mesh, kHandRim);
+    if (!eyes.empty()) {
+      Eigen::AlignedBox3d box;
+      for (const auto& corners : mesh.triangles) {
+        for (const Vector3d& p : corners) box.extend(p);
+      }
+      const std::vector<Vector3d> chosen = ChooseEyes(eyes[link], box.center(), kEyeAngle);
+      ShelledMesh seen = VisiblePart({mesh, shell}, chosen, kSeenDetail * tolerance, *context);
+      shell = std::move(seen.shell);
+      mesh = std::move(seen.mesh);
+    }
+    meshes.push_back(std::move(shell));
     meshes.push_back(std::move(mesh));
   }
   return meshes;

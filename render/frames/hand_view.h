@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -24,16 +25,19 @@ using HandView = std::vector<HandLinkView>;
 
 /// Return the drawn meshes of the links, in normalized units.
 /// @param tolerance  size of the details that are omitted, in normalized units (ReduceDetail); 0
-///                   for all triangles.
+///                   for all triangles. Equal links have equal meshes.
 [[nodiscard]] std::vector<ShadedMesh> MakeLinkMeshes(const HandView& hand,
                                                      const NormalizedFrame& frame,
                                                      double tolerance = 0);
 
 /// Return the canvas meshes of a hand, in normalized units. Each link has a dark shell, of which
 /// only the rim is visible as outline, and then its mesh (MakeLinkMeshes).
-[[nodiscard]] std::vector<ShadedMesh> MakeHandMeshes(const HandView& hand,
-                                                     const NormalizedFrame& frame,
-                                                     double tolerance = 0);
+/// @param tolerance  size of omitted details, as for MakeLinkMeshes.
+/// @param eyes       positions of the eye in the frame of each link, in normalized units. If they
+///                   are given, triangles that none of them sees are omitted (VisiblePart).
+[[nodiscard]] std::vector<ShadedMesh> MakeHandMeshes(
+    const HandView& hand, const NormalizedFrame& frame, double tolerance = 0,
+    std::span<const std::vector<Eigen::Vector3d>> eyes = {});
 
 /// The drawing of a hand without its meshes, which can be large.
 class HandFigure {

@@ -34,6 +34,11 @@ constexpr double kLabelHeight = 1.5;  ///< height of a label per font size
 constexpr double kBaseLine = 0.72;  ///< position of the baseline per height of a label
 constexpr double kRule = 1;         ///< width of the border of each image, pixels
 constexpr Color kRuleColor = {213, 218, 227};
+/// Font size of a note, its distance from the corner of the image, and its halo, per font size of
+/// labels.
+constexpr double kNoteFont = 0.85;
+constexpr double kNoteMargin = 0.6;
+constexpr double kNoteHalo = 0.3;
 constexpr double kThickRule = 0.012;  ///< width of a thick frame per width of an image
 constexpr Color kEmpty = {238, 240, 244};
 constexpr Color kEmptyText = {112, 120, 134};
@@ -184,6 +189,17 @@ void OverviewImage::DrawImage(int x, int y, const Image& image, const OverviewLa
   const double rule = label.framed ? std::max(2.0, kThickRule * grid_.width) : kRule;
   cairo_rectangle(cr, x + rule / 2, y + rule / 2, grid_.width - rule, grid_.height - rule);
   Stroke(cr, label.framed ? label.color : kRuleColor, rule);
+  DrawNote(x, y, label.note);
+}
+
+void OverviewImage::DrawNote(int x, int y, const std::string& note) {
+  if (note.empty()) return;
+  cairo_t* cr = image_->context();
+  const double margin = kNoteMargin * grid_.font;
+  SelectFont(cr, kNoteFont * grid_.font, /*bold=*/false);
+  cairo_move_to(cr, x + margin, y + margin + kNoteFont * grid_.font);
+  cairo_text_path(cr, Elide(cr, note, grid_.width - 2 * margin).c_str());
+  FillWithHalo(cr, ground_.ink, kNoteHalo * grid_.font, ground_.halo);
 }
 
 }  // namespace regrasp::render

@@ -14,7 +14,8 @@ struct OverviewLabel {
   std::string title;    ///< text at the left, for example "3 switch"
   std::string verdict;  ///< text at the right in `color`, for example "pass"
   Color color = kInk;
-  bool framed = false;  ///< whether the image has a thick frame in `color`
+  bool framed = false;    ///< whether the image has a thick frame in `color`
+  std::string note = {};  ///< small text at the top left of the image; empty for none
 };
 
 /// Default, minimum and maximum width of an overview, pixels.
@@ -75,6 +76,7 @@ class OverviewImage {
   /// Draw the label of the next cell and return its index.
   int TakeCell(const OverviewLabel& label);
   void DrawImage(int x, int y, const Image& image, const OverviewLabel& label);
+  void DrawNote(int x, int y, const std::string& note);
 
   int count_, width_, height_;
   int added_ = 0;

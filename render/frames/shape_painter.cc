@@ -26,6 +26,9 @@ constexpr float kDiffuse = 0.40F;
 /// Direction towards the light, in camera axes.
 constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
 
+/// Rounding error of the distance of the eye from a plane, relative to that from the origin.
+constexpr float kEdgeOn = 1e-4F;
+
 /// A vertex: point, normal and colour.
 struct Vertex {
   std::array<float, 6> values;
@@ -77,7 +80,10 @@ struct FormPainter {
   void operator()(const MeshInstance& instance) const {
     gl().PushMatrix();
     gl().MultMatrixd(instance.pose.data());
-    meshes[instance.mesh].Draw();
+    const bool perspective = camera.projection == Projection::kPerspective;
+    Eigen::Vector4d eye;
+    eye << (perspective ? camera.position : Vector3d(camera.axes.col(2))), (perspective ? 1 : 0);
+    meshes[instance.mesh].DrawFacing(instance.pose.inverse() * eye);
     gl().PopMatrix();
   }
 };
@@ -106,18 +112,38 @@ VertexArrays::VertexArrays(const ShadedMesh& mesh, bool shared) {
       if (mesh.colors.empty()) continue;
       colors_.insert(colors_.end(), vertex.color.begin(), vertex.color.end());
     }
+    if (!shared) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    planes_.emplace_back(
+        Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(a)).cast<float>());
   }
 }
 
-void VertexArrays::Draw() const {
+void VertexArrays::DrawFacing(const Eigen::Vector4d& eye) const {
+  // OpenGL culls triangles that are nearly edge-on.
+  const Eigen::Vector4f at = eye.cast<float>();
+  const float least = -kEdgeOn * at.norm();
+  std::vector<unsigned> facing;
+  facing.reserve(corners_.size());
+  for (std::size_t t = 0; t < planes_.size(); ++t) {
+    if (planes_[t].dot(at) < least) continue;
+    facing.insert(facing.end(), corners_.begin() + static_cast<std::ptrdiff_t>(3 * t),
+                  corners_.begin() + static_cast<std::ptrdiff_t>(3 * t + 3));
+  }
+  Draw(facing);
+}
+
+void VertexArrays::Draw(const std::vector<unsigned>& corners) const {
+  if (corners.empty()) return;
   gl().VertexPointer(3, GL_FLOAT, 0, points_.data());
   gl().NormalPointer(GL_FLOAT, 0, normals_.data());
   if (!colors_.empty()) {
     gl().EnableClientState(GL_COLOR_ARRAY);
     gl().ColorPointer(4, GL_UNSIGNED_BYTE, 0, colors_.data());
   }
-  gl().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_.size()), GL_UNSIGNED_INT,
-                    corners_.data());
+  gl().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners.size()), GL_UNSIGNED_INT,
+                    corners.data());
   if (!colors_.empty()) gl().DisableClientState(GL_COLOR_ARRAY);
 }
 

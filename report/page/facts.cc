@@ -64,11 +64,19 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
   facts.Add("Tolerance", LengthText(settings.tolerance * settings.diameter_m));
 }
 
+/// Return the size and mass of the object, and the assumption about the unit of its file.
+std::string SizeText(const Report& report) {
+  if (!report.has_no_unit) return report.measures;
+  return report.measures + "; no unit in the file, read as " +
+         (report.scale == 1 ? "metres" : LengthText(report.scale) + " per unit");
+}
+
 }  // namespace
 
 Element MakeFacts(const Report& report, const std::vector<StepMeasures>& measures) {
   FactList facts;
   facts.Add("Object", report.object_file + (report.dimension == 2 ? ", planar" : ", a solid"));
+  if (!report.measures.empty()) facts.Add("Size", SizeText(report));
   if (!report.planner.empty()) facts.Add("Planner", report.planner);
   if (report.farthest_from_points) {
     facts.Add("Contacts", "at given points, at most " +

@@ -267,6 +267,7 @@ class Page {
     const std::string text =
         "The motion between the static grasps, with a short pause after each step.";
     const std::string name = "The replay as a moving picture";
+    if (!moving_.file.empty()) return {LinkedReplay(text)};
     const bool video = moving_.media_type.starts_with("video/");
     // An image has no controls: it plays while the element is open.
     const Element image = Element("details", {}, Element("summary", {}, "Play the animation"),
@@ -274,6 +275,16 @@ class Page {
     return {Element(
         "div", {{"class", "replay"}},
         Parts{Element("h2", {}, "Replay"), Note(text), video ? MakeVideo(moving_, name) : image})};
+  }
+
+  [[nodiscard]] Element LinkedReplay(const std::string& text) const {
+    constexpr double kBytesPerMegabyte = 1e6;
+    const auto megabytes = static_cast<double>(moving_.bytes.size()) / kBytesPerMegabyte;
+    return Element(
+        "div", {{"class", "replay"}},
+        Parts{Element("h2", {}, "Replay"), Note(text),
+              Element("p", {}, Element("a", {{"href", PathUri(moving_.file)}}, moving_.file),
+                      " (" + NumberText(megabytes) + " MB, not part of this page)")});
   }
 
   [[nodiscard]] static Element MakeImage(const PagePicture& picture, const std::string& name) {

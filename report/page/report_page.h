@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,7 +19,13 @@ struct PagePicture {
   /// MIME type of an image, or of a video that browsers play
   std::string_view media_type = "image/webp";
   bool own_view = false;  ///< whether the camera differs from that of the other images
+  /// Path of the file relative to the page. If it is set, the page links to the file instead of
+  /// containing it.
+  std::string file = {};
 };
+
+/// Largest animation that a page contains, bytes. A page with a larger one cannot be sent by mail.
+inline constexpr std::size_t kLargestMoving = 4'000'000;
 
 /// Row of a plan on the index page of a batch (DataTable).
 struct IndexRow {
@@ -26,7 +33,7 @@ struct IndexRow {
   std::string key = {};   ///< key of the row in links: page#plan=KEY
 };
 
-/// Return the text of report.html, a page that needs no other file.
+/// Return the text of report.html, a page that needs no other file unless its animation is linked.
 /// It has the verdict, the interactive 3-D replay, settings, plots of displacement and friction
 /// margin over the steps, a table with one line per step, and the images. Without scripts or WebGL
 /// an image replaces the replay.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/number.h"
 #include "planner/plan/projection.h"
 #include "render/frames/fault_marks.h"
 #include "render/frames/overview_image.h"
@@ -45,6 +46,15 @@ render::OverviewLabel MakeLabel(const ReportStep& step, const std::string& progr
           : step.skipped ? kSkipped
                          : kGood,
           failed};
+}
+
+/// Return the text that marks the step with the smallest friction margin of a plan that passes;
+/// empty for all other steps.
+std::string WeakestNote(const Report& report, const ReportStep& step) {
+  if (report.steps.size() < 2 || !report.steps_passed()) return "";
+  if (step.check.index != report.weakest_step() || !step.check.required) return "";
+  return "smallest friction margin: " +
+         FormatDegrees(Degrees(report.friction_angle - step.check.required->upper));
 }
 
 /// Return what happens in an entry, without its number and kind, which are in the label above it.
@@ -224,7 +234,9 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
   const auto pass_on = [&](int index, const std::vector<render::Image>& images) {
     const ReportStep& step = *shown[index].step;
     take({step.check.index, images[0], images[1], renderer.HasOwnView(index)});
-    sheet.Add(images[2], MakeLabel(step, progress[index]));
+    render::OverviewLabel label = MakeLabel(step, progress[index]);
+    label.note = WeakestNote(report, step);
+    sheet.Add(images[2], label);
     options.on_picture(index + 1, count);
   };
   render::DrawInOrder(renderer, count, options.workers, draw, pass_on);
@@ -248,6 +260,7 @@ MovingPictures DrawAnimation(const object::Object& object, const plan::Plan& pla
     frame.background = render::Background::kWhite;
   }
   for (const plan::Snapshot& snapshot : moving.snapshots) {
+    if (!snapshot.links_W.empty()) frame.links_W.push_back(snapshot.links_W);
     for (const plan::FingerState& finger : snapshot.fingers) {
       if (finger.role == plan::FingerRole::kFree) frame.reached.push_back(finger.contact_W);
     }

@@ -75,7 +75,10 @@ struct Report {
   std::string planner;
   double scale = 1;  ///< metres per unit of length of the object
   int dimension = 3;
-  std::string measures;       ///< size and mass of the object: "10.4 cm across, 216 g"
+  std::string measures;  ///< size and mass of the object: "10.4 cm across, 216 g"
+  /// Whether the object's file states no unit of length, so that its numbers times `scale` are
+  /// metres.
+  bool has_no_unit = false;
   double friction_angle = 0;  ///< friction angle, radians
   double torsion = 0;         ///< torsional friction length, unit of the object
   /// Radius of the fingers, unit of the object; nullopt: points.

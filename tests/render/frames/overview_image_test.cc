@@ -58,6 +58,25 @@ TEST(OverviewImageTest, AFailureIsFramedAndLaterCellsAreGrey) {
   EXPECT_GT(Count(draw(true), 238, 240, 244), 320 * 240 * 9 / 10);
 }
 
+TEST(OverviewImageTest, ANoteIsAtTheTopLeftOfItsImage) {
+  const auto draw = [](const std::string& note) {
+    OverviewImage sheet(1, 640, 480);
+    sheet.Add(MakeFlat(640, 480, 200), {"", "", kInk, false, note});
+    return sheet.ToImage();
+  };
+  const Image plain = draw(""), marked = draw("smallest friction margin: 3.1°");
+  int left_top = 0, elsewhere = 0;
+  for (int y = 0; y < plain.height; ++y) {
+    for (int x = 0; x < plain.width; ++x) {
+      const std::size_t i = 3 * (std::size_t(y) * plain.width + x);
+      if (plain.rgb[i] == marked.rgb[i]) continue;
+      (x < plain.width * 2 / 3 && y < plain.height / 4 ? left_top : elsewhere) += 1;
+    }
+  }
+  EXPECT_GT(left_top, 200);
+  EXPECT_EQ(elsewhere, 0);
+}
+
 TEST(OverviewImageTest, TheHeadingIsAboveAllImages) {
   const Color green = {29, 107, 60};
   const Image plain = OverviewImage(4, 320, 240).ToImage();

@@ -206,6 +206,29 @@ TEST(ReportPageTest, AVideoPlaysOnThePageAndAnImageOfAnotherTypeIsOne) {
   EXPECT_EQ(Count(image, "<details><summary>Play the animation</summary><img"), 1);
 }
 
+TEST(ReportPageTest, ALargeAnimationIsLinkedAndNotContained) {
+  const Scene scene(/*fails=*/false);
+  const PagePicture moving = {
+      std::string(31'000'000, 'a'), 320, 240, "image/webp", false, "re#play.webp"};
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {}, moving);
+  EXPECT_EQ(Count(page, "<a href=\"re%23play.webp\">re#play.webp</a> (31 MB"), 1);
+  EXPECT_EQ(Count(page, "data:image/webp"), 0);
+  EXPECT_LT(page.size(), 1'000'000);
+}
+
+TEST(ReportPageTest, TheSizeStatesAnUnknownUnitAndTheScale) {
+  Scene scene(/*fails=*/false);
+  EXPECT_THAT(FormatReportHtml(scene.report, scene.plan, {}), Not(HasSubstr("<dt>Size")));
+  scene.report.measures = "10.4 cm across, 216 g";
+  const auto page = [&] { return FormatReportHtml(scene.report, scene.plan, {}); };
+  EXPECT_THAT(page(), HasSubstr("<dd>10.4 cm across, 216 g</dd>"));
+  scene.report.has_no_unit = true;
+  scene.report.scale = 1;
+  EXPECT_THAT(page(), HasSubstr("216 g; no unit in the file, read as metres</dd>"));
+  scene.report.scale = 1e-3;
+  EXPECT_THAT(page(), HasSubstr("no unit in the file, read as 1\u00a0mm per unit</dd>"));
+}
+
 TEST(ReportPageTest, ThePictureOfTheFailureComesFirstAndOnce) {
   const std::vector<PagePicture> pictures = {{"abc", 640, 480}, {"defg", 640, 480}, {}};
   const Scene failing(/*fails=*/true), passing(/*fails=*/false);
