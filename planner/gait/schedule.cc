@@ -56,10 +56,14 @@ constexpr std::size_t kMaxLengthFactor = 3;
 constexpr std::size_t kMaxExtraSegments = 12;
 
 /// Margins for simulated edges, assigned to initial poses in turn.
-/// Two of three model rolling: most of these gaits execute. Searches without it are faster.
+/// Searches without modelled rolling are faster, but fewer of their gaits execute. Which of them
+/// finds a gait first depends on hand and object, so each round begins with another set.
 constexpr RobustnessMargins kNotRolling = {0.05, 0.5e-3};
-constexpr std::array kEdgeMargins = {RobustnessMargins{0.05, 0.5e-3, 0.0},
-                                     RobustnessMargins{0.05, 1e-3, 0.1}, kNotRolling};
+constexpr RobustnessMargins kLightRolling = {0.05, 0.5e-3, 0.0};
+constexpr RobustnessMargins kMediumRolling = {0.05, 1e-3, 0.1};
+constexpr std::size_t kEdgeSets = 3;
+constexpr std::array kEdgeMargins = {kNotRolling, kLightRolling, kMediumRolling,
+                                     kNotRolling, kLightRolling, kMediumRolling};
 /// Patience in the first round, and its growth per round.
 constexpr std::int64_t kEdgePatience = 300;
 constexpr double kPatienceGrowth = 1.25;
@@ -125,7 +129,8 @@ std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
     }
     const double growth = std::pow(kPatienceGrowth, std::min(round, kMaxRounds - 1));
     const Patience patience{std::llround(kEdgePatience * growth), 1};
-    schedules.push_back({{kEdgeMargins, patience, Simulate::kEdges, stream}});
+    const std::span sets(&kEdgeMargins[static_cast<std::size_t>(round) % kEdgeSets], kEdgeSets);
+    schedules.push_back({{sets, patience, Simulate::kEdges, stream}});
   }
   return schedules;
 }
