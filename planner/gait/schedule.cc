@@ -186,14 +186,18 @@ class AttemptRunner {
     return {std::move(best->found), std::move(best->execution)};
   }
 
-  /// Return the first gait or, if there is none, the reason.
+  /// Return the first gait or, if there is none, the first reason.
   /// Reasons of attempts with simulated edges take precedence.
   [[nodiscard]] SimulatedGait FirstNotExecuted() {
     SimulatedGait best;
+    bool is_final = false;  // whether the reason is that of an attempt with simulated edges
     ForEachOutcome([&](Outcome& outcome) {
+      const bool simulates_edges = outcome.simulate == Simulate::kEdges;
       if (best.found.gait) return;
-      if (!outcome.found.gait && !best.found.message.empty() && outcome.simulate == Simulate::kGait)
+      if (!outcome.found.gait && !best.found.message.empty() && (is_final || !simulates_edges)) {
         return;
+      }
+      is_final = simulates_edges && !outcome.found.message.empty();
       best = {std::move(outcome.found), std::move(outcome.execution)};
     });
     return best;

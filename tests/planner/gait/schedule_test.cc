@@ -10,8 +10,10 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -345,6 +347,39 @@ TEST(ScheduleTest, FailedEdgesAreCountedByReason) {
   EXPECT_FALSE(none.execution);
   EXPECT_THAT(none.message,
               testing::ContainsRegex("whose simulated execution fails .slipped [1-9]"));
+}
+
+struct PatientSearch {
+  bool finds = false;
+  std::int64_t expanded = 0;
+};
+
+/// Search a turn by 360° with little friction, until it stagnates for a number of stances.
+PatientSearch SearchWith(std::int64_t patience) {
+  GaitRequest request = RequestFor("cube", 0.8, 360);
+  request.robustness = RobustnessLevel::kNone;
+  request.criteria.friction_angle = Radians(6);
+  request.patience = patience;
+  PatientSearch search;
+  request.progress = [&](std::string_view text) {
+    std::istringstream in{std::string(text.substr(text.find(':') + 1))};
+    std::int64_t count = 0;
+    if (in >> count) search.expanded = count;
+  };
+  search.finds = FindGait(request).gait.has_value();
+  return search;
+}
+
+TEST(ScheduleTest, ASearchThatStagnatesEnds) {
+  const PatientSearch patient = SearchWith(400);
+  EXPECT_TRUE(patient.finds);
+  const PatientSearch hasty = SearchWith(20);
+  EXPECT_FALSE(hasty.finds);
+  EXPECT_GE(hasty.expanded, 20);
+  EXPECT_LT(hasty.expanded, patient.expanded);
+  const PatientSearch hastier = SearchWith(1);
+  EXPECT_FALSE(hastier.finds);
+  EXPECT_LT(hastier.expanded, hasty.expanded);
 }
 
 /// Uses a clock that is set by hand.
