@@ -24,7 +24,7 @@ namespace regrasp::gait {
 namespace {
 
 /// Expansions of one search before the next search continues.
-constexpr int kExpandedPerRun = 6;
+constexpr std::int64_t kExpandedPerRun = 6;
 /// Total expansions per initial pose before another one is added: constant, and per track step if
 /// that is larger. Deep searches solve more full rotations than many shallow ones: 19 instead of 16
 /// of 20 within 8 s with an Allegro hand.
@@ -350,8 +350,8 @@ std::optional<Gait> MultiStartSearch::Search() {
     Start* start = Next();
     if (start == nullptr) return std::nullopt;
     const std::int64_t before = start->search->counts().expanded;
-    const std::optional<Gait> gait =
-        start->search->Run(before + kExpandedPerRun, request_.deadline);
+    const std::optional<Gait> gait = start->search->Run(
+        before + std::min(kExpandedPerRun, request_.most_expanded - expanded_), request_.deadline);
     if (gait) return MergeMoves(start->terms.setup, *gait);
     expanded_ += start->search->counts().expanded - before;
     if (const int farthest = start->search->counts().farthest; farthest > farthest_) {
