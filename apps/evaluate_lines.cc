@@ -165,6 +165,9 @@ class EvaluateLines {
       const std::optional<ObjectOfLine> object = ObjectOf(line);
       return EntryDigest(common_ + PiecesDigest(object, line), line, object, finder_);
     };
+    run.work.complete = [this](const Line& line, std::string_view record) {
+      return HasImage(line, record);
+    };
     const int code = RunLinesFile(run);
     if (code <= kExitBadInput) WriteEvaluateFiles(files_, options_);
     return code;
@@ -290,6 +293,17 @@ class EvaluateLines {
     return FormatRecord(line.entry, VerdictJson(grasp, hand_.name, verdict, cause));
   }
 
+  [[nodiscard]] std::filesystem::path ImageOf(const Line& line) const {
+    return std::filesystem::path(options_.images) / GraspImageName(line.entry);
+  }
+
+  /// Return whether the image of a record still exists, if it has one.
+  [[nodiscard]] bool HasImage(const Line& line, std::string_view record) const {
+    const bool is_drawn =
+        !options_.images.empty() && record.find(R"("distance_mm":)") != std::string_view::npos;
+    return !is_drawn || std::filesystem::exists(ImageOf(line));
+  }
+
   /// Write the image of a grasp.
   /// @throws EnvironmentError  if it cannot be drawn or written.
   void DrawImage(const Line& line, const sim::HandGrasp& grasp, const sim::GraspVerdict& verdict,
@@ -306,8 +320,7 @@ class EvaluateLines {
     const std::string caption =
         OneLine(grasp.id) +
         (fault == sim::GraspFault::kNone ? ": pass" : ": " + std::string(GraspFaultName(fault)));
-    render::WritePng(std::filesystem::path(options_.images) / GraspImageName(line.entry),
-                     render::DrawGraspScene(scene, object, caption, kImageSize));
+    render::WritePng(ImageOf(line), render::DrawGraspScene(scene, object, caption, kImageSize));
   }
 
   EvaluateOptions options_;

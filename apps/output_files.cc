@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -130,13 +129,6 @@ void CheckOutputsWritable(const OutputFiles& outputs) {
                             });
     if (!to_be_made) CheckWritable(file.path);
   }
-}
-
-std::string LowerSuffix(const std::string& file) {
-  std::string suffix = fs::path(file).extension().string();
-  std::ranges::transform(suffix, suffix.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
 }
 
 bool IsHtmlFile(const std::string& file) {

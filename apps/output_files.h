@@ -50,9 +50,6 @@ void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles&
 /// @throws EnvironmentError  if one cannot be written; the message names it.
 void CheckOutputsWritable(const OutputFiles& outputs);
 
-/// Return the suffix of a file name in lower case: ".csv"; empty if there is none.
-[[nodiscard]] std::string LowerSuffix(const std::string& file);
-
 /// Return whether a file name has the suffix .html or .htm, in any case.
 [[nodiscard]] bool IsHtmlFile(const std::string& file);
 

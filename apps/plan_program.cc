@@ -34,14 +34,6 @@ constexpr char kRandomAny[] = "random-any";
 
 constexpr int kMostJobs = 1024;
 
-/// Return the message for a found plan that fails the checker.
-std::string CheckerComplaint(const plan::PlanCheck& check) {
-  const auto failed = std::ranges::find_if(
-      check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
-  return "the plan fails the analytic check at step " + std::to_string(failed->index) + ", " +
-         failed->kind + ": " + failed->detail;
-}
-
 }  // namespace
 
 bool PlanEnd::is_random() const {
@@ -301,12 +293,13 @@ FinishedPlan PlanProgram::Plan(const object::ObjectFile& object, const GivenPoin
                                .patch_radius = common.PatchRadius(*object.object),
                                .given_points = given ? &*given : nullptr},
                               *result.plan);
-  if (!finished.check.passed()) result.warnings.push_back(CheckerComplaint(finished.check));
+  for (std::string& warning : certificate::PlanWarnings(*object.object, finished.check)) {
+    result.warnings.push_back(std::move(warning));
+  }
   if (hand_file) {
     for (const std::string& warning : hand_file->warnings)
       result.warnings.push_back(hand.hand + ": " + warning);
   }
-  result.warnings.push_back(plan::FilledContactsWarning(*object.object, finished.check.projected));
   return finished;
 }
 

@@ -135,8 +135,11 @@ class ValidateLines {
   /// Return the messages of the process that made a record.
   static std::vector<std::string> MessagesOf(const Line& line, std::string_view record) {
     const auto outcome = OutcomeOf(record, line.entry);
-    const bool trials = record.find(R"("trials":{)") != std::string_view::npos;
-    if (outcome != Outcome::kFail && (outcome != Outcome::kPass || !trials)) return {};
+    const auto has = [record](std::string_view member) {
+      return record.find(member) != std::string_view::npos;
+    };
+    const bool states_rate = has(R"("trials":{)") || has(R"("conditions":{)");
+    if (outcome != Outcome::kFail && (outcome != Outcome::kPass || !states_rate)) return {};
     const ReportSummary report = SummarizeReport(ParseJson(record, line.name), line.name);
     const std::string said = report.headline();
     return said.empty() ? std::vector<std::string>{} : std::vector{line.name + ": " + said};

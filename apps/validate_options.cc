@@ -145,7 +145,7 @@ void AddBodies(CLI::App& app, ValidateOptions& options) {
 
 void AddVideo(CLI::App& app, std::string& video) {
   const auto parse = [&video](const std::string& file) {
-    if (!render::FindAnimationFormat(file) && !file.ends_with(".html")) {
+    if (!render::FindAnimationFormat(file) && LowerSuffix(file) != ".html") {
       throw CLI::ValidationError(
           "--video",
           "expected a name that ends in .mp4, .gif, .webp or .html, found \"" + file + "\"");
@@ -317,10 +317,10 @@ void ValidateOptions::Finish(const CLI::App& app) {
   given = GivenOptions(app, ChangeNothing());
 }
 
-bool ValidateOptions::trajectory_is_npz() const { return trajectory.ends_with(".npz"); }
+bool ValidateOptions::trajectory_is_npz() const { return LowerSuffix(trajectory) == ".npz"; }
 
 bool ValidateOptions::for_lines() const {
-  return plans.size() == 1 && plans.front().ends_with(".jsonl");
+  return plans.size() == 1 && LowerSuffix(plans.front()) == ".jsonl";
 }
 
 bool ValidateOptions::for_batch() const {

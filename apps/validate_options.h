@@ -11,6 +11,7 @@
 
 #include "apps/options.h"
 #include "apps/repair_module.h"
+#include "planner/base/file.h"
 #include "planner/criteria/grasp_criteria.h"
 #include "render/frames/frame.h"
 #include "render/frames/overview_image.h"
@@ -119,7 +120,7 @@ struct ValidateOptions {
   [[nodiscard]] bool for_grasps() const { return !grasps_path.empty(); }
   [[nodiscard]] bool for_states() const { return states > 0; }
   /// Whether --video names a page with the interactive 3-D replay.
-  [[nodiscard]] bool video_is_page() const { return video.ends_with(".html"); }
+  [[nodiscard]] bool video_is_page() const { return LowerSuffix(video) == ".html"; }
   [[nodiscard]] bool animates() const { return animate || (!video.empty() && !video_is_page()); }
   [[nodiscard]] bool draws_frames(bool passed) const {
     return frames == Frames::kAll || (frames == Frames::kFailed && !passed);

@@ -24,6 +24,7 @@ struct PythonObject {
   object::ObjectFile file;
   double scale = 1;  ///< metres per unit of length
   std::string text;  ///< text of the corresponding file; empty if it was read from a file
+  std::optional<object::Shells> shells = std::nullopt;  ///< how a file with several was read
 };
 
 /// Hand held by Python.

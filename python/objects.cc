@@ -41,7 +41,7 @@ PythonObject ReadFileAsObject(const std::filesystem::path& path, double scale, b
     try {
       read = PythonObject{
           repaired ? repair::ReadRepaired(path, {}, reading) : object::ReadObject(path, reading),
-          scale, ""};
+          scale, "", shells};
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     } catch (const object::MeshError& error) {

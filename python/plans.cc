@@ -195,9 +195,12 @@ py::tuple FindPlan(const PythonObject& object, const PlanArguments& given, py::o
     }
     if (result.plan) {
       const plan::PlanCheck check = certificate::FinishPlan(
-          object.file, {.friction_angle = given.friction_angle, .scale = object.scale},
+          object.file,
+          {.friction_angle = given.friction_angle, .scale = object.scale, .shells = object.shells},
           *result.plan);
-      if (!check.passed()) result.warnings.emplace_back("the checker fails this plan");
+      for (std::string& warning : certificate::PlanWarnings(*object.file.object, check)) {
+        result.warnings.push_back(std::move(warning));
+      }
       text = plan::FormatPlan(*result.plan);
     }
   }

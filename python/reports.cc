@@ -103,7 +103,7 @@ PythonReport ValidatePlan(const PythonObject& object, const std::string& text,
   return result;
 }
 
-/// Return "hold: not force closure; why: …; what would mend it: …"; nullopt if the plan passes.
+/// Return "step 0 (hold) fails: not-force-closure; why: …; help: …"; nullopt if the plan passes.
 std::optional<std::string> FailureOf(const PythonReport& of) {
   const auto failed = report::DescribeFailure(of.report);
   if (!failed) return std::nullopt;

@@ -19,6 +19,9 @@ using sim::Cause;
 /// Steps per unit to which required coefficients of friction are rounded up.
 constexpr double kMuSteps = 1000;
 
+/// Return whether a step passes the analytic check and fails in the replay.
+bool FailsInReplay(const ReportStep& step) { return step.check.reason == Reason::kNone; }
+
 /// Return the required friction angle, degrees, as in the detail of the failure.
 std::string RequiredText(const ReportStep& step, const Report& report) {
   return FormatRequiredDegrees(Degrees(step.check.required->upper), Degrees(report.friction_angle))
@@ -72,11 +75,11 @@ std::string FixOfReplay(const ReportStep& step, const Report& report) {
   }
 }
 
-/// More clearance helps only if the fault has a clearance.
-std::string FixOfCollision(const plan::Fault& fault) {
-  if (fault.hand && !fault.hand->gap_m) {
+std::string FixOfCollision(const ReportStep& step) {
+  if (FailsInReplay(step)) {
     return "plan with a larger --clearance, or with motions in which fingertips roll less";
   }
+  const plan::Fault& fault = step.fault();
   const bool apart = fault.hand && fault.hand->gap_m && *fault.hand->gap_m > 0;
   if (!apart) return "use another path or other contacts, because links penetrate each other";
   return "use another path or other contacts; note: the check passes with a --clearance below " +
@@ -135,19 +138,17 @@ std::string SuggestedFixOf(const ReportStep& step, const Report& report) {
     case Reason::kJointLimit:
       return "use a joint configuration within the limits, or a contact that it reaches";
     case Reason::kHandCollides:
-      return FixOfCollision(step.fault());
+      return FixOfCollision(step);
     case Reason::kTorqueLimit:
       return "use a smaller --grasp-force, a lighter object (--mass), or joint configurations in "
              "which "
              "the finger is stronger";
     case Reason::kCouplingViolated:
-      return step.fault().hand
-                 ? "plan again with a hand file that hand --model writes, whose couplings the "
-                   "joint "
-                   "angles keep"
-                 : "use a model whose coupling is as hard as that of the real hand (solref and "
-                   "solimp of its equality), a smaller --grasp-force, or a plan whose states keep "
-                   "the coupling";
+      return FailsInReplay(step)
+                 ? "use a model whose coupling is as hard as that of the real hand (solref and "
+                   "solimp of its equality), or a smaller --grasp-force"
+                 : "plan again with a hand file that hand --model writes, whose couplings the "
+                   "joint angles keep";
     case Reason::kTipPenetrates:
       return "use a fingertip sphere inside the model's geometry (hand --model fits one), or plan "
              "with a larger margin";
@@ -181,6 +182,8 @@ std::string HandToleranceText(const sim::HandTolerance& tolerance) {
          FormatLength(tolerance.slip_m);
 }
 
+constexpr double kMilliseconds = 1e3;  ///< per second
+
 /// Significant digits of a limit that is printed next to a value that exceeds it.
 constexpr int kLimitDigits = 6;
 
@@ -208,9 +211,10 @@ std::string DepthToleranceText(const Report& report) {
   return FormatLength(HandToleranceOf(report).depth_m);
 }
 
-/// Return the rule that a step violates. @param hand  whether the fault is of the plan's hand.
-std::string RuleOf(Reason reason, bool hand, const Report& report) {
-  switch (reason) {
+/// Return the rule that a step violates.
+std::string RuleOf(const ReportStep& step, const Report& report) {
+  const bool is_of_replay = FailsInReplay(step);
+  switch (step.reason()) {
     case Reason::kOffSurface:
       return "a contact must be on the surface to within " +
              FormatPlain(100 * object::kPointTolerance, 2) +
@@ -250,18 +254,23 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
       return "the fingertip sphere of a finger in contact must be at its contact, to 1 µm in a "
              "static grasp and to 100 µm along a motion";
     case Reason::kJointLimit:
-      return "joints must stay within the limits of the hand's model";
+      return "joints must stay within the limits of the hand's model" +
+             (is_of_replay ? ", to " + JointToleranceText(report) : "");
     case Reason::kHandCollides:
+      if (is_of_replay) {
+        return "links of the hand must not touch each other, the palm or the object; only "
+               "fingertips may touch the object";
+      }
       return "the links of the hand must keep the clearance from each other, the palm and the "
              "object on the whole path; a fingertip in contact may penetrate by 0.3 mm";
     case Reason::kTorqueLimit:
-      return "no actuator of the hand may be at its force limit for longer than 50 ms";
+      return "no actuator of the hand may be at its force limit for longer than " +
+             FormatShort(kMilliseconds * HandToleranceOf(report).limit_s) + " ms";
     case Reason::kCouplingViolated:
-      return hand ? "coupled joints must keep the relation of the hand's model in every state of "
-                    "the "
-                    "plan, to 1 µrad"
-                  : "coupled joints must stay within " + JointToleranceText(report) +
-                        " of their coupling";
+      return is_of_replay ? "coupled joints must stay within " + JointToleranceText(report) +
+                                " of their coupling"
+                          : "coupled joints must keep the relation of the hand's model in every "
+                            "state of the plan, to 1 µrad";
     case Reason::kTipPenetrates:
       return "a fingertip may penetrate the object by at most " + DepthToleranceText(report) +
              ", and its collision geometry, if a sphere represents it, by at most half the "
@@ -281,7 +290,7 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
     case Reason::kStartDiffers:
       return "the plan must begin with the grasp of --start";
     case Reason::kGoalNotReached:
-      if (hand) {
+      if (step.fault().hand) {
         return "the object must end at the goal of the plan's hand and be in each goal set of the "
                "plan, to 1 µm and 1 µrad";
       }
@@ -294,8 +303,7 @@ std::string RuleOf(Reason reason, bool hand, const Report& report) {
 
 std::string WhyOf(const ReportStep& step, const Report& report) {
   const bool caused = step.disagreement && step.disagreement->between == sim::Between::kReplayFails;
-  return RuleOf(step.reason(), step.fault().hand.has_value(), report) +
-         (caused ? "; " + sim::LikelyCauseText(*step.disagreement) : "");
+  return RuleOf(step, report) + (caused ? "; " + sim::LikelyCauseText(*step.disagreement) : "");
 }
 
 }  // namespace

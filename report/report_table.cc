@@ -350,7 +350,7 @@ std::string FormatReportTable(const Report& report) {
   const Columns columns = ColumnsOf(report);
   std::vector<TextRow> rows = {{"step", "kind", "required_deg", "displacement_mm", "slip_mm"}};
   if (columns.regions) rows.front().push_back("region");
-  if (columns.fixed) rows.front().push_back("fixed_squeeze");
+  if (columns.fixed) rows.front().push_back("fixed_force");
   rows.front().push_back("verdict");
   for (const ReportStep& step : report.steps) rows.push_back(MakeRow(step, columns));
   return FormatFailure(report) + FormatRows(rows) + FormatGoalTable(report) + FormatBody(report) +
@@ -435,6 +435,7 @@ std::string ConditionsShareText(const sim::ConditionSummary& summary) {
 }
 
 std::string ConditionsFailureText(const sim::ConditionSummary& summary) {
+  if (summary.applicable() == 0) return "no condition applies to the hand and the engine";
   const int failed = summary.applicable() - summary.passed();
   if (failed == 0) return "";
   std::string text = OfAllText(failed, summary) + " conditions fail";

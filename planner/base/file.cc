@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -35,6 +36,13 @@ std::string Hexadecimal(std::string_view bytes) {
 }
 
 namespace fs = std::filesystem;
+
+std::string LowerSuffix(const std::filesystem::path& file) {
+  std::string suffix = file.extension().string();
+  std::ranges::transform(suffix, suffix.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
 
 std::string ReadFile(const fs::path& path) {
   std::error_code error;

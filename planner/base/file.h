@@ -37,6 +37,9 @@ class Descriptor {
 /// Return the bytes as lower-case hexadecimal digits, two per byte.
 [[nodiscard]] std::string Hexadecimal(std::string_view bytes);
 
+/// Return the suffix of a file name in lower case: ".csv"; empty if there is none.
+[[nodiscard]] std::string LowerSuffix(const std::filesystem::path& file);
+
 /// Return the contents of a file.
 /// @throws InputError  if the file does not exist, is a folder, cannot be read, or is larger than
 ///     `kMaxInputBytes`.

@@ -1,8 +1,13 @@
 #include "planner/certificate/align_certificate.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "planner/motion/check_motion_proof.h"
 #include "planner/motion/path_force_closure.h"
+#include "planner/plan/grasp_io.h"
 #include "planner/plan/projection.h"
+#include "planner/plan/reason.h"
 
 namespace regrasp::certificate {
 
@@ -81,6 +86,19 @@ plan::PlanCheck FinishPlan(const object::ObjectFile& object, const PlanOrigin& o
   plan::CheckOptions options;
   options.given_points = origin.given_points;
   return plan::CheckPlan(*object.object, plan, options);
+}
+
+std::vector<std::string> PlanWarnings(const object::Object& object, const plan::PlanCheck& check) {
+  std::vector<std::string> warnings;
+  const auto failed = std::ranges::find_if(
+      check.steps, [](const plan::StepCheck& step) { return step.reason != plan::Reason::kNone; });
+  if (failed != check.steps.end()) {
+    warnings.push_back("the plan fails the analytic check at step " +
+                       std::to_string(failed->index) + ", " + failed->kind + ": " + failed->detail);
+  }
+  std::string filled = plan::FilledContactsWarning(object, check.projected);
+  if (!filled.empty()) warnings.push_back(std::move(filled));
+  return warnings;
 }
 
 }  // namespace regrasp::certificate

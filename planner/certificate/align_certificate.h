@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/motion/motion_segment.h"
@@ -57,5 +58,10 @@ struct PlanOrigin {
 /// @returns the checker's result. A failure is a defect of the planner.
 [[nodiscard]] plan::PlanCheck FinishPlan(const object::ObjectFile& object, const PlanOrigin& origin,
                                          plan::Plan& plan);
+
+/// Return the warnings of a finished plan: a failed check, and contacts on filled surface.
+/// @param check  result of FinishPlan.
+[[nodiscard]] std::vector<std::string> PlanWarnings(const object::Object& object,
+                                                    const plan::PlanCheck& check);
 
 }  // namespace regrasp::certificate

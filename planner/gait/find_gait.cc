@@ -12,6 +12,7 @@
 #include "planner/base/number.h"
 #include "planner/gait/failure_causes.h"
 #include "planner/gait/gait_search.h"
+#include "planner/gait/multi_start_search.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/gait/rolled_gait.h"
 #include "planner/gait/schedule.h"
@@ -373,7 +374,7 @@ GaitResult FindGait(const GaitRequest& request) {
         const std::scoped_lock lock(adding);
         evidence.Add(search.counts());
         if (evidence.tracks.empty()) evidence.tracks = search.drawn_tracks();
-        return {std::nullopt, FailureSummary(asked, search.counts())};
+        return {std::nullopt, FailureSummary(asked, search.counts()), search.reached()};
       }
       found = Planned(configs.front()->setup, asked, rolled_on, *gait);
       if (found.gait) break;

@@ -12,11 +12,11 @@
 //
 // FindGait(request):                                   // find_gait.cc
 //   contacts := 400 random surface points + given grasps
-//   for each Attempt{margins, budget, simulate}:       // schedule.cc
+//   for each Attempt{margins, patience, simulate}:     // schedule.cc
 //     gait := MultiStartSearch(attempt)
 //     if no simulation is required or gait executes: return gait
 //
-// MultiStartSearch:                                    // schedule.cc
+// MultiStartSearch:                                    // multi_start_search.cc
 //   starts := FindInitialPoses(task)                   // START of the search: initial_pose.cc
 //   repeat: add the next start if due; resume the most promising search, which is a
 //     BidirectionalSearch or a TurnSearch              // joined_search.cc, on top of GaitSearch

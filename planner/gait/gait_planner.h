@@ -27,9 +27,8 @@ struct GaitParameters {
 /// smallest change with a gait is reported. Each probe may expand a twentieth of the request's
 /// budget, so an unreported change may still help. All probes share the deadline; progress is
 /// reported as in FindGait.
-/// @returns text, for example "each change alone helps: a friction of 0.96 instead of 0.8; not
-/// found
-///     to help: a tilt of the palm".
+/// @returns text, for example "any one of these changes yields a plan: a friction of 0.96 instead
+///     of 0.8; no effect: a tilt of the palm".
 [[nodiscard]] std::string ExplainGait(const GaitRequest& request);
 
 /// The planner `gait`: a hand rotates or translates the object, or changes its grasp.

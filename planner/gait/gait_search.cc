@@ -73,7 +73,8 @@ constexpr int kFewestHolding = 3;
 constexpr int kInitialDraws = 120;
 /// Maximum number of successors queued from one grid node.
 constexpr int kMaxSuccessors = 8;
-/// Maximum number of failed connections to an assignment before its node is pruned.
+/// Failed connections to an assignment after which it is not queued again at their grid node.
+/// Before, another parent may queue it there.
 constexpr int kMaxFailures = 3;
 /// Maximum number of successors with the same fingers placed, released and sliding.
 constexpr int kMaxSuccessorsPerChange = 2;
@@ -283,7 +284,7 @@ void GaitSearch::UseStartConfigurations(Stance& stance) {
     if (const int point = stance.assignment[finger]; point == kNone) {
       stance.idle[finger] = configuration;
     } else {
-      checker_.reach().Set(finger, point, grid_.start(), configuration);
+      checker_.SetConfiguration(finger, point, grid_.start(), configuration);
     }
   }
 }
@@ -446,7 +447,8 @@ bool GaitSearch::WasExpandedAt(const StanceNode& stance_node) const {
 int GaitSearch::ConnectToParent(int index) {
   if (tree_.PlanPathFromParent(tree_[index])) return index;
   const int other = tree_.AfterIdlingAbove(index);
-  // There may be a path from another parent.
+  // There may be a path from another parent, which queues the assignment again if this node is
+  // pruned.
   StanceNode& failed = tree_[index];
   if (other < 0 && ++failed_[failed.stance.assignment] < kMaxFailures) failed.is_pruned = true;
   return other;

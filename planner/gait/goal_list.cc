@@ -152,7 +152,11 @@ class GoalListSearch {
     }
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
     Prefix end{Joined(before.plan, plan, request_.goals[goal]), found.execution};
-    if (!end.execution) end.execution = before.execution;
+    if (!end.execution) {
+      end.execution = before.execution;
+    } else if (before.plan && end.execution->is_held) {
+      end.execution->steps += static_cast<int>(before.plan->steps.size());
+    }
     return end;
   }
 

@@ -65,6 +65,14 @@ class ObjectMotionChecker {
 
   [[nodiscard]] ReachMap& reach() { return reach_; }
 
+  /// Let a finger touch a contact at a grid node with a given configuration instead of the one of
+  /// its inverse kinematics.
+  void SetConfiguration(FingerIndex finger, int point, int node,
+                        const JointConfiguration& configuration) {
+    reach_.Set(finger, point, node, configuration);
+    apart_.clear();
+  }
+
   /// Let stances pass only at grid nodes at which they hold the object. Without it, the caller
   /// tests force closure of stances, because it does not depend on the pose.
   /// @param grasps  outlives this object.

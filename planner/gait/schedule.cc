@@ -11,11 +11,10 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "planner/base/in_blocks.h"
-#include "planner/gait/initial_pose.h"
-#include "planner/gait/joined_search.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/plan/reason.h"
 
@@ -23,34 +22,13 @@ namespace regrasp::gait {
 
 namespace {
 
-/// Expansions of one search before the next search continues.
-constexpr std::int64_t kExpandedPerRun = 6;
-/// Total expansions per initial pose before another one is added: constant, and per track step if
-/// that is larger. Deep searches solve more full rotations than many shallow ones: 19 instead of 16
-/// of 20 within 8 s with an Allegro hand.
-constexpr std::int64_t kExpandedForNext = 20;
-constexpr double kExpandedForStep = 0.75;
-/// Number of times that initial poses are drawn.
-constexpr int kPoseDrawings = 4;
-
-/// Bounds of one search.
-struct Budget {
-  std::int64_t expanded;  ///< expanded stances per quarter turn
-  double time;            ///< fraction of the remaining time
-};
-
-/// Bounds of one attempt. A search ends when it stagnates, so that searches that are far from the
-/// goal but advance are not abandoned, and those in a dead end are.
-struct Patience {
-  std::int64_t expanded;  ///< expanded stances without progress along the track
-  double time;            ///< fraction of the remaining time
-};
-
 /// Margins with modelled rolling, larger ones first.
 constexpr std::array kRolling = {RobustnessMargins{0.05, 1.5e-3, 0.2},
                                  RobustnessMargins{0.02, 1.5e-3, 0.1}};
-/// Budget per set of margins if there is a gait without margins.
-constexpr Budget kRollingBudget = {40, 0.4};
+/// Bounds per set of margins if there is a gait without margins: expanded stances per quarter turn,
+/// and fraction of the remaining time.
+constexpr std::int64_t kRollingExpanded = 40;
+constexpr double kRollingTime = 0.4;
 /// Length limit of a robust gait: factor and offset on the number of segments without margins.
 constexpr std::size_t kMaxLengthFactor = 3;
 constexpr std::size_t kMaxExtraSegments = 12;
@@ -76,18 +54,21 @@ constexpr int kStreamShift = 32;  ///< bits by which the random stream is shifte
 /// other tasks it is, because ring hands execute most of these.
 constexpr std::array kShortTurnMargins = {kNotRolling, RobustnessMargins{0.02, 0}};
 constexpr double kShortTurn = 1.75;  ///< radians
-constexpr Patience kWholePatience = {40, 0.15};
+constexpr std::int64_t kWholePatience = 40;
+constexpr double kWholeTime = 0.15;  ///< fraction of the remaining time
 /// Maximum number of such attempts with different initial poses.
 /// Most of these gaits are a single motion, which is found quickly and either executes or not.
 constexpr int kWholeAttempts = 4;
 /// Fraction of the time after which a gait without margins is searched.
 constexpr double kTimeBeforeWithout = 0.85;
 
-void Bound(GaitRequest& request, const Budget& budget) {
+/// Return the request of one set of margins if there is a gait without margins.
+GaitRequest Bounded(GaitRequest request) {
   const double quarters = std::max(1.0, std::abs(request.turn.angle) / (std::numbers::pi / 2));
   request.most_expanded = std::min<std::int64_t>(
-      request.most_expanded, std::llround(quarters * static_cast<double>(budget.expanded)));
-  request.deadline = request.deadline.After(budget.time);
+      request.most_expanded, std::llround(quarters * static_cast<double>(kRollingExpanded)));
+  request.deadline = request.deadline.After(kRollingTime);
+  return request;
 }
 
 constexpr std::string_view kSimulating = "simulating a plan";
@@ -100,9 +81,12 @@ enum class Simulate {
 };
 
 /// One search of a gait: a row of the schedule.
+/// It ends when it stagnates, so that searches that are far from the goal but advance are not
+/// abandoned, and those in a dead end are.
 struct Attempt {
   std::span<const RobustnessMargins> margin_sets;  ///< assigned to the initial poses in turn
-  Patience patience;
+  std::int64_t patience;  ///< expanded stances without progress along the track that end the search
+  double time;            ///< fraction of the remaining time
   Simulate simulate;
   std::uint64_t stream;           ///< random stream, added to the seed
   bool repeats_previous = false;  ///< skipped if the previous attempt found no gait
@@ -123,14 +107,18 @@ std::vector<Schedule> SchedulesFor(const GaitRequest& request) {
     for (const RobustnessMargins& margins : whole) {
       Schedule& schedule = schedules.emplace_back();
       for (int again = 0; again < kWholeAttempts; ++again) {
-        schedule.push_back(
-            {{&margins, 1}, kWholePatience, Simulate::kGait, stream + again, again > 0});
+        schedule.push_back({{&margins, 1},
+                            kWholePatience,
+                            kWholeTime,
+                            Simulate::kGait,
+                            stream + again,
+                            again > 0});
       }
     }
     const double growth = std::pow(kPatienceGrowth, std::min(round, kMaxRounds - 1));
-    const Patience patience{std::llround(kEdgePatience * growth), 1};
+    const std::int64_t patience = std::llround(kEdgePatience * growth);
     const std::span sets(&kEdgeMargins[static_cast<std::size_t>(round) % kEdgeSets], kEdgeSets);
-    schedules.push_back({{sets, patience, Simulate::kEdges, stream}});
+    schedules.push_back({{sets, patience, 1, Simulate::kEdges, stream}});
   }
   return schedules;
 }
@@ -186,21 +174,19 @@ class AttemptRunner {
     return {std::move(best->found), std::move(best->execution)};
   }
 
-  /// Return the first gait or, if there is none, the first reason.
+  /// Return the first gait or, if there is none, the reason of the search that reached farthest.
   /// Reasons of attempts with simulated edges take precedence.
-  [[nodiscard]] SimulatedGait FirstNotExecuted() {
-    SimulatedGait best;
-    bool is_final = false;  // whether the reason is that of an attempt with simulated edges
+  [[nodiscard]] SimulatedGait BestNotExecuted() {
+    const auto rank = [](const Outcome& outcome) {
+      return std::tuple(outcome.found.gait.has_value(), !outcome.found.message.empty(),
+                        outcome.simulate == Simulate::kEdges, outcome.found.reached);
+    };
+    Outcome* best = nullptr;
     ForEachOutcome([&](Outcome& outcome) {
-      const bool simulates_edges = outcome.simulate == Simulate::kEdges;
-      if (best.found.gait) return;
-      if (!outcome.found.gait && !best.found.message.empty() && (is_final || !simulates_edges)) {
-        return;
-      }
-      is_final = simulates_edges && !outcome.found.message.empty();
-      best = {std::move(outcome.found), std::move(outcome.execution)};
+      if (best == nullptr || (!best->found.gait && rank(outcome) > rank(*best))) best = &outcome;
     });
-    return best;
+    if (best == nullptr) return {};
+    return {std::move(best->found), std::move(best->execution)};
   }
 
   /// Return why no gait executes.
@@ -215,7 +201,7 @@ class AttemptRunner {
           farthest == nullptr || outcome.ExecutedFraction() > farthest->ExecutedFraction();
       if (is_farther) farthest = &outcome;
     });
-    if (farthest == nullptr) return {std::move(FirstNotExecuted().found)};
+    if (farthest == nullptr) return {std::move(BestNotExecuted().found)};
     std::string text =
         std::to_string(count) +
         (count == 1 ? " candidate planned, it does not execute in simulation; it "
@@ -275,8 +261,8 @@ class AttemptRunner {
     asked.deadline = deadline;
     asked.progress = [this](std::string_view text) { Report(text); };
     if (attempt.simulate == Simulate::kGait) asked.simulate = nullptr;
-    asked.patience = attempt.patience.expanded;
-    asked.deadline = asked.deadline.After(attempt.patience.time);
+    asked.patience = attempt.patience;
+    asked.deadline = asked.deadline.After(attempt.time);
     Outcome outcome{find_(asked, attempt.margin_sets), attempt.simulate};
     if (!outcome.found.gait) return outcome;
     Report(kSimulating);
@@ -336,132 +322,6 @@ class AttemptRunner {
 
 }  // namespace
 
-MultiStartSearch::MultiStartSearch(const GaitRequest& request, std::vector<SearchTerms> terms,
-                                   GaitEnds ends)
-    : request_(request),
-      terms_(std::move(terms)),
-      ends_(std::move(ends)),
-      random_(request.seed, RandomUse::kHomes),
-      task_(request.scale * request.solid->mass_properties().centroid, request.turn, request.goal,
-            request.turn_tolerance) {}
-
-std::optional<Gait> MultiStartSearch::Search() {
-  while (!request_.deadline.IsOver() && expanded_ < request_.most_expanded) {
-    Start* start = Next();
-    if (start == nullptr) return std::nullopt;
-    const std::int64_t before = start->search->counts().expanded;
-    const std::optional<Gait> gait = start->search->Run(
-        before + std::min(kExpandedPerRun, request_.most_expanded - expanded_), request_.deadline);
-    if (gait) return MergeMoves(start->terms.setup, *gait);
-    expanded_ += start->search->counts().expanded - before;
-    if (const int farthest = start->search->counts().farthest; farthest > farthest_) {
-      farthest_ = farthest;
-      expanded_at_farthest_ = expanded_;
-    }
-    if (expanded_ - expanded_at_farthest_ >= request_.patience) return std::nullopt;
-    request_.progress("searching a gait: " + std::to_string(expanded_) + " stances expanded from " +
-                      std::to_string(starts_.size()) + " initial poses");
-  }
-  return std::nullopt;
-}
-
-std::vector<GaitCounts> MultiStartSearch::counts() const {
-  std::vector<GaitCounts> counts;
-  for (const auto& start : starts_) counts.push_back(start->search->counts());
-  return counts;
-}
-
-std::int64_t MultiStartSearch::BudgetForNextStart() const {
-  if (starts_.empty()) return 0;
-  const int steps = starts_.front()->search->counts().steps;
-  return static_cast<std::int64_t>(starts_.size()) *
-         std::max<std::int64_t>(kExpandedForNext, std::llround(kExpandedForStep * steps));
-}
-
-MultiStartSearch::Start* MultiStartSearch::Next() {
-  if (expanded_ >= BudgetForNextStart() && OpenNextStart()) return starts_.back().get();
-  Start* next = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& start : starts_) {
-    if (start->search->IsExhausted()) continue;
-    const GaitCounts counts = start->search->counts();
-    const double farther = 1.0 + counts.farthest;
-    const double weight = static_cast<double>(counts.expanded) / (farther * farther);
-    if (weight >= least) continue;
-    least = weight;
-    next = start.get();
-  }
-  return next == nullptr && OpenNextStart() ? starts_.back().get() : next;
-}
-
-bool MultiStartSearch::OpenNextStart() {
-  while (true) {
-    if (tracks_.empty()) {
-      if (!DrawTracks()) return false;
-      continue;
-    }
-    const PoseTrack track = tracks_.back();
-    tracks_.pop_back();
-    auto start = std::make_unique<Start>(
-        Start{terms_[opened_++ % terms_.size()],
-              RandomStream(request_.seed, RandomUse::kGaits, starts_.size())});
-    start->search = SearchAlong(track, start->terms, start->random);
-    if (!start->search || !start->search->GoalIsHeld()) continue;
-    starts_.push_back(std::move(start));
-    return true;
-  }
-}
-
-std::unique_ptr<StartSearch> MultiStartSearch::SearchAlong(const PoseTrack& track,
-                                                           const SearchTerms& terms,
-                                                           RandomStream& random) {
-  const HandSetup& setup = terms.setup;
-  std::optional<IdleConfigurations> idle_configurations =
-      FindIdleConfigurations(setup, track, random_);
-  // Idle fingers of a given start state may have to move before the object reaches them.
-  if (!idle_configurations && !request_.start_joints.empty()) {
-    idle_configurations = FindIdleConfigurations(setup, track.InSteps(0), random_);
-  }
-  if (!idle_configurations) return nullptr;
-  const bool is_turn = !request_.goal && track.steps() > 0;
-  // Contacts roll, and edges are simulated, in the direction of time only.
-  const bool is_one_directional = setup.rolled_on != nullptr || terms.simulate;
-  const bool may_begin_anywhere = is_turn && !request_.turn_tolerance && !request_.start_pose &&
-                                  ends_.start.empty() && ends_.goal.empty() && !is_one_directional;
-  if (may_begin_anywhere) {
-    if (auto backward = FindIdleConfigurations(setup, track.Backwards(), random_)) {
-      return std::make_unique<TurnSearch>(setup, track, *std::move(idle_configurations),
-                                          *std::move(backward), terms.memory, random);
-    }
-  }
-  const Eigen::Vector3d& up = setup.scene.hand().up;
-  const auto goal = task_.GoalFrom(track.PoseAt(0));
-  const PoseGrid grid =
-      goal && !goal->HasDefaultTolerance()
-          ? PoseGrid(track, up, *goal)
-          : PoseGrid(track, up, is_turn ? PoseGrid::End::kOrientation : PoseGrid::End::kPose);
-  return std::make_unique<BidirectionalSearch>(setup, grid, *std::move(idle_configurations), ends_,
-                                               terms.memory, random, terms.simulate);
-}
-
-bool MultiStartSearch::DrawTracks() {
-  if (++drawings_ > (request_.start_pose ? 1 : kPoseDrawings)) return false;
-  if (request_.start_pose) {
-    for (const PoseTrack& track : task_.Tracks(*request_.start_pose)) {
-      tracks_.insert(tracks_.end(), terms_.size(), track);
-      drawn_tracks_.push_back(track);
-    }
-  } else {
-    const SearchTerms& first = terms_.front();
-    for (const auto& pose : FindInitialPoses(first.setup, task_, ends_, first.memory, random_)) {
-      tracks_.push_back(task_.From(pose));
-      drawn_tracks_.push_back(tracks_.back());
-    }
-  }
-  std::ranges::reverse(tracks_);
-  return true;
-}
-
 std::string FailureText(const planning::ExecutionResult& execution, std::size_t steps) {
   const std::string where = execution.is_held ? "step " + std::to_string(execution.steps + 1) +
                                                     " of " + std::to_string(steps)
@@ -475,12 +335,8 @@ FoundGait FindRobustGait(const GaitRequest& request, const FindOne& find,
                          const FoundGait& without) {
   FoundGait none = without;
   for (const RobustnessMargins& margins : kRolling) {
-    GaitRequest asked = request;
-    if (without.gait) {
-      Bound(asked, kRollingBudget);
-    } else {
-      asked.most_expanded /= static_cast<std::int64_t>(kRolling.size());
-    }
+    GaitRequest asked = without.gait ? Bounded(request) : request;
+    if (!without.gait) asked.most_expanded /= static_cast<std::int64_t>(kRolling.size());
     FoundGait found = find(asked, {&margins, 1});
     const bool is_much_longer =
         found.gait && without.gait &&
@@ -500,7 +356,7 @@ SimulatedGait FindExecutableGait(const GaitRequest& request,
   if (runner.is_unknown()) return FindWithoutSimulation(request, find);
   if (SimulatedGait best = runner.BestExecuted(); best.found.gait) return best;
   if (is_required) return runner.WhyNoneExecutes();
-  SimulatedGait best = runner.FirstNotExecuted();
+  SimulatedGait best = runner.BestNotExecuted();
   SimulatedGait without{find(request, {})};
   if (without.found.gait) {
     request.progress(kSimulating);

@@ -278,11 +278,12 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         torsion: torsional friction length of soft fingers, in the object's unit. 0 means hard fingers;
             the default is that of the plan.
         mass: mass of the object, kg; default: that of the plan, otherwise that of water.
-        squeeze: grasp force (sum of normal forces), N; default: ten times what the disturbance needs.
+        squeeze: grasp force (sum of normal forces), N. The default makes the weight a tenth of the
+            disturbance force; in a replay by a hand it follows from the torques of the actuators.
         shake: disturbance force as a share of the grasp force.
         tolerance: allowed displacement and slip as a share of the object's diameter.
-        engine: engine of the replay by point fingers: "mujoco" (default), "ode", or "both": MuJoCo
-            decides, and steps on which the engines differ are listed.
+        engine: engine of the replay: "mujoco" (default), "ode", or "both": MuJoCo decides, and steps
+            on which the engines differ are listed.
         stress: whether to compute the largest disturbance that each grasp resists per direction.
         hand: hand of the plan. Its joints, limits, fingertips and collisions are checked, and images
             show it.
@@ -349,8 +350,6 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
         raise InputError('hand is required for replay="hand"')
-    if given.replay_by_hand and engine is not None:
-        raise InputError('engine requires replay="points"')
     if given.replay_by_hand and given.stress:
         raise InputError('stress requires replay="points"')
     if tip is not None:

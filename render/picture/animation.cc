@@ -12,12 +12,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/base/file.h"
 #include "render/picture/image.h"
 
 namespace regrasp::render {
 
 std::optional<AnimationFormat> FindAnimationFormat(const std::filesystem::path& file) {
-  const std::filesystem::path ending = file.extension();
+  const std::string ending = LowerSuffix(file);
   if (ending == ".mp4") return AnimationFormat::kMp4;
   if (ending == ".gif") return AnimationFormat::kGif;
   if (ending == ".webp") return AnimationFormat::kWebp;

@@ -54,7 +54,7 @@ void AddSettings(const sim::ReplaySettings& settings, FactList& facts) {
     facts.Add("Replay", "by the hand's own actuators");
     facts.Add("Feedback", FeedbackText(settings.hand->sensing));
     facts.Add("Fingertips", settings.hand->tip == sim::TipShape::kBall
-                                ? "balls"
+                                ? "spheres"
                                 : "the model's own collision geometry");
     facts.Add("Tolerance", LengthText(tolerance.length_m) + ", " +
                                FormatDegrees(Degrees(tolerance.angle_rad)) + " off the plan");
@@ -245,7 +245,7 @@ Element ResistedWrenchPlot(const Report& report) {
     plot.series[0].values.push_back(Least(step, &sim::ResistedWrench::replay));
     plot.series[1].values.push_back(Least(step, &sim::ResistedWrench::analysis));
   }
-  plot.limit = PlotLimit{100 * report.settings->disturbance_ratio, "shake", false};
+  plot.limit = PlotLimit{100 * report.settings->disturbance_ratio, "disturbance", false};
   return Element(
       "div", {{"class", "plots"}},
       Figure({}, DrawStepPlot(plot), "The weakest direction of each static grasp.",

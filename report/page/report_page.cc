@@ -30,9 +30,9 @@ constexpr char kViewerPage[] =
 /// Legend of the images. In print it is next to the first image.
 constexpr char kLegend[] =
     "Each picture shows the state after its step. A finger keeps its name or number and its "
-    "colour; a cone is what friction allows, an arrow the force. A ring marks a finger just "
-    "placed, a pale finger with an arrow one that leaves, a dashed line the path of one that "
-    "moved.";
+    "colour. Cone: friction cone. Arrow: contact force. Ring: a finger that was placed. Pale "
+    "finger "
+    "with an arrow: a finger that was lifted. Dashed line: path of a finger that slid.";
 
 /// The replay is hidden until its script runs. The data are not a script that could run.
 Parts ViewerParts(std::string_view viewer) {
@@ -186,7 +186,11 @@ class Page {
   [[nodiscard]] Parts Plots() const {
     if (report_.grasp) return {};  // one entry makes no plot
     Parts figures;
-    if (HasAny(&StepMeasures::moved_m)) figures.push_back(MotionFigure());
+    if (HasAny(&StepMeasures::deviation_percent)) {
+      figures.push_back(DeviationFigure());
+    } else if (HasAny(&StepMeasures::moved_m)) {
+      figures.push_back(MotionFigure());
+    }
     if (HasAny(&StepMeasures::margin_deg)) figures.push_back(MarginFigure());
     if (figures.empty()) return {};
     return {Element("div", {{"class", "plots"}}, figures)};
@@ -204,6 +208,25 @@ class Page {
     return Figure({}, DrawStepPlot(plot), "Motion of the object.",
                   "Largest motion of the object in each step, |Δx| + R|Δφ| with R half the "
                   "diameter, and largest slip of a holding fingertip. Logarithmic.");
+  }
+
+  /// Return the plot of a replay by a hand, which has several limits.
+  [[nodiscard]] Element DeviationFigure() const {
+    const sim::HandTolerance& tolerance = report_.settings->hand->tolerance;
+    StepPlot plot;
+    plot.title = "Deviation of the object and slip of the fingers, over the steps";
+    plot.y_axis = "% of the limit";
+    plot.series = {{"object", Values(&StepMeasures::deviation_percent), PlotMark::kDisc},
+                   {"finger slipped", Values(&StepMeasures::slip_percent), PlotMark::kRing}};
+    plot.limit = PlotLimit{100, "limit", true};
+    plot.failed = failed_;
+    return Figure({}, DrawStepPlot(plot), "Deviation of the object.",
+                  "Discs: deviation of the object from the plan in each step, limits " +
+                      LengthText(tolerance.length_m) + " and " +
+                      FormatDegrees(Degrees(tolerance.angle_rad)) +
+                      ", half of that in a static grasp. Rings: slip of a holding fingertip, "
+                      "limit " +
+                      LengthText(tolerance.slip_m) + ".");
   }
 
   [[nodiscard]] Element MarginFigure() const {

@@ -109,6 +109,16 @@ void AddReplay(const sim::StepReplay& replay, StepMeasures& measures) {
   }
 }
 
+void AddShares(const sim::HandMeasures& hand, const sim::HandTolerance& tolerance,
+               StepMeasures& measures) {
+  const double at_rest = tolerance.at_rest;
+  measures.deviation_percent =
+      IfFinite(100 * std::max({hand.off_m / tolerance.length_m, hand.off_rad / tolerance.angle_rad,
+                               hand.rest_off_m / (at_rest * tolerance.length_m),
+                               hand.rest_off_rad / (at_rest * tolerance.angle_rad)}));
+  measures.slip_percent = IfFinite(100 * hand.slip_m / tolerance.slip_m);
+}
+
 }  // namespace
 
 std::vector<StepMeasures> MeasureSteps(const Report& report) {
@@ -118,7 +128,11 @@ std::vector<StepMeasures> MeasureSteps(const Report& report) {
     if (!step.skipped && step.check.required) {
       measures.margin_deg = Degrees(report.friction_angle - step.check.required->upper);
     }
-    if (!step.skipped && step.replay) AddReplay(*step.replay, measures);
+    if (step.skipped || !step.replay) continue;
+    AddReplay(*step.replay, measures);
+    if (report.settings && report.settings->hand && step.replay->hand) {
+      AddShares(*step.replay->hand, report.settings->hand->tolerance, measures);
+    }
   }
   return all;
 }

@@ -54,6 +54,9 @@ struct StepMeasures {
   /// Largest |Δx| + R |Δrotation| of the object, metres, which the tolerance limits.
   std::optional<double> moved_m;
   std::optional<double> slip_m;  ///< largest slip of a holding finger
+  /// Deviation of the object and slip in percent of their limits, in a replay by a hand. The object
+  /// has the largest percentage of its displacement and rotation, also in the static grasp.
+  std::optional<double> deviation_percent, slip_percent;
   /// Friction margin: friction angle minus the required one, degrees; negative if it is too small.
   std::optional<double> margin_deg;
   /// Force margin in the static grasp after the step, degrees: friction angle minus the largest

@@ -48,15 +48,6 @@ render::OverviewLabel MakeLabel(const ReportStep& step, const std::string& progr
           failed};
 }
 
-/// Return the text that marks the step with the smallest friction margin of a plan that passes;
-/// empty for all other steps.
-std::string WeakestNote(const Report& report, const ReportStep& step) {
-  if (report.steps.size() < 2 || !report.steps_passed()) return "";
-  if (step.check.index != report.weakest_step() || !step.check.required) return "";
-  return "smallest friction margin: " +
-         FormatDegrees(Degrees(report.friction_angle - step.check.required->upper));
-}
-
 /// Return what happens in an entry, without its number and kind, which are in the label above it.
 std::string OverviewCaption(const plan::Plan& plan, const ReportStep& step,
                             std::span<const std::string> finger_names) {
@@ -189,6 +180,13 @@ std::vector<ShownEntry> ShowEntries(const object::Object& object, const plan::Pl
   return shown;
 }
 
+std::string OverviewNote(const Report& report, const ReportStep& step) {
+  if (report.steps.size() < 2 || !report.steps_passed()) return "";
+  if (step.check.index != report.weakest_step() || !step.check.required) return "";
+  return "smallest friction margin: " +
+         FormatDegrees(Degrees(report.friction_angle - step.check.required->upper));
+}
+
 std::string EntryCaption(const plan::Plan& plan, const ReportStep& step,
                          std::span<const std::string> finger_names) {
   const std::string caption = render::FrameCaption(plan, step.check.index, finger_names);
@@ -235,7 +233,7 @@ render::Image DrawFrames(const object::Object& object, const plan::Plan& plan,
     const ReportStep& step = *shown[index].step;
     take({step.check.index, images[0], images[1], renderer.HasOwnView(index)});
     render::OverviewLabel label = MakeLabel(step, progress[index]);
-    label.note = WeakestNote(report, step);
+    label.note = OverviewNote(report, step);
     sheet.Add(images[2], label);
     options.on_picture(index + 1, count);
   };

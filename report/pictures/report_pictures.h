@@ -58,6 +58,11 @@ struct ShownEntry {
 [[nodiscard]] std::string EntryCaption(const plan::Plan& plan, const ReportStep& step,
                                        std::span<const std::string> finger_names);
 
+/// Return the text that marks the step with the smallest friction margin in the overview image of a
+/// plan that passes.
+/// @returns an empty text for all other steps, a plan that fails, and a plan without steps.
+[[nodiscard]] std::string OverviewNote(const Report& report, const ReportStep& step);
+
 /// Return the number of entries that have a frame: all up to the failed entry.
 [[nodiscard]] int CountFrames(const Report& report);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <stdexcept>
 
 #include "planner/base/error.h"
 #include "planner/base/in_blocks.h"
@@ -39,22 +38,15 @@ ConditionResult ReplayUnder(const kinematics::HandFile& file, const object::Poly
     result.detail = error.what();
     return result;
   }
-  try {
-    const ReplayResult replay = ReplayHand(file, solid, plan, options);
-    const auto failed = std::ranges::find_if(
-        replay.steps, [](const StepReplay& step) { return step.reason != plan::Reason::kNone; });
-    if (failed != replay.steps.end()) {
-      result.failed = failed->index;
-      result.reason = failed->reason;
-      result.detail = failed->detail;
-    }
-    DescribeEnd(replay, plan, options.tolerance, result);
-  } catch (const std::invalid_argument& error) {
-    // A controller has no contact normals while an object is thrown about.
-    result.failed = plan::EntryIndex(0);
-    result.reason = plan::Reason::kSimulationUnstable;
-    result.detail = error.what();
+  const ReplayResult replay = ReplayHand(file, solid, plan, options);
+  const auto failed = std::ranges::find_if(
+      replay.steps, [](const StepReplay& step) { return step.reason != plan::Reason::kNone; });
+  if (failed != replay.steps.end()) {
+    result.failed = failed->index;
+    result.reason = failed->reason;
+    result.detail = failed->detail;
   }
+  DescribeEnd(replay, plan, options.tolerance, result);
   return result;
 }
 
@@ -73,7 +65,7 @@ int ConditionSummary::ended_within() const {
 }
 
 double ConditionSummary::share() const {
-  return applicable() == 0 ? 1 : static_cast<double>(passed()) / applicable();
+  return applicable() == 0 ? 0 : static_cast<double>(passed()) / applicable();
 }
 
 bool ConditionSummary::enough() const { return !required || share() >= *required; }

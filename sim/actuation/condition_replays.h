@@ -38,6 +38,7 @@ struct ConditionSummary {
   [[nodiscard]] int passed() const;
   /// Return the number of conditions under which the object ends within the tolerance.
   [[nodiscard]] int ended_within() const;
+  /// Return the share of the applicable conditions that pass; 0 if none applies.
   [[nodiscard]] double share() const;
   /// Return whether the share is at least `required`.
   [[nodiscard]] bool enough() const;

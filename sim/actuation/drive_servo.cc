@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <string>
 
 #include "planner/base/error.h"
+#include "planner/base/number.h"
 #include "planner/kinematics/finger_kinematics.h"
 
 namespace regrasp::sim {
@@ -32,6 +35,21 @@ double MakeCritical(const kinematics::Finger& finger, const std::vector<int>& jo
     inertia += model.dof_armature[dof];
   }
   return 2 * std::sqrt(stiffness * inertia);
+}
+
+/// Return the largest value that a range contains with both signs.
+/// @param range  lower and upper limit.
+/// @param what  quantity of the range, for the message.
+/// @throws InputError  if there is none: the actuator acts in one direction only.
+double SymmetricLimit(const mjtNum* range, const std::string& what, const mjModel& model,
+                      int actuator) {
+  const double limit = std::min(-range[0], range[1]);
+  if (limit > 0) return limit;
+  const char* name = mj_id2name(&model, mjOBJ_ACTUATOR, actuator);
+  throw InputError("hand model: " + what + " range of actuator " +
+                   (name == nullptr ? std::to_string(actuator) : std::string(name)) +
+                   ": expected negative and positive values, found " + FormatShort(range[0]) +
+                   " to " + FormatShort(range[1]));
 }
 
 /// Give the actuator the law of its servo.
@@ -85,11 +103,11 @@ DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>
                       : MakeCritical(finger, joints, drive, law.stiffness, model);
   mjtNum* range = model.actuator_forcerange + std::ptrdiff_t{2} * a;
   double limit = std::numeric_limits<double>::infinity();
-  if (model.actuator_forcelimited[a] != 0) limit = std::min(-range[0], range[1]);
+  if (model.actuator_forcelimited[a] != 0) limit = SymmetricLimit(range, "force", model, a);
   if (!servo && model.actuator_ctrllimited[a] != 0) {
     const mjtNum* control = model.actuator_ctrlrange + std::ptrdiff_t{2} * a;
     const double gain = std::abs(model.actuator_gainprm[std::ptrdiff_t{mjNGAIN} * a]);
-    limit = std::min(limit, gain * std::min(-control[0], control[1]));
+    limit = std::min(limit, gain * SymmetricLimit(control, "control", model, a));
   }
   if (servo && law.stiffness < kServoStiffness) {
     law.model_stiffness = law.stiffness;

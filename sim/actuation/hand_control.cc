@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "planner/grasp/grasp_forces.h"
 #include "planner/kinematics/finger_kinematics.h"
@@ -337,8 +338,12 @@ Eigen::VectorXd HandControl::TorquesOf(FingerIndex f) const {
 void HandControl::Step() {
   const int period = static_cast<int>(std::lround(kPeriod / world_.timestep()));
   if (step_ % period == 0) {
-    Measure();
-    PlanForces();
+    try {
+      Measure();
+      PlanForces();
+    } catch (const std::invalid_argument& error) {
+      throw UnstableError(error.what());
+    }
   }
   ++step_;
   std::vector<Command> commands;

@@ -112,6 +112,8 @@ class HandControl {
   void CopyState(const HandControl& other);
 
   /// Advance the world by one time step under control.
+  /// @throws UnstableError  if the simulation becomes unstable, or the object is thrown about, so
+  ///     that fingertips have no contact normals.
   void Step();
 
   /// Return the planned force of a finger on the object, in the palm's frame.

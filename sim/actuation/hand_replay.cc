@@ -14,6 +14,7 @@
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/plan.h"
 #include "sim/actuation/entry_replay.h"
+#include "sim/actuation/hand_sensors.h"
 #include "sim/actuation/hand_world.h"
 #include "sim/actuation/ode_hand.h"
 #include "sim/actuation/torque_grasp_force.h"
@@ -255,11 +256,21 @@ HandReplayOptions In(EngineChoice engine, HandReplayOptions options) {
 
 namespace {
 
-/// Check that gravity acts on a plan in the direction of the hand.
-/// @throws std::invalid_argument  otherwise.
+/// @throws std::invalid_argument  if gravity acts on a plan in another direction than on the hand.
 void CheckGravity(const kinematics::HandModel& hand, const plan::Plan& plan) {
   if (!plan.hand || !plan.hand->up || plan.hand->up->isApprox(hand.up)) return;
   throw std::invalid_argument("ReplayHand: gravity acts in another direction than on the plan");
+}
+
+/// Check that a hand can replay a plan.
+/// @throws InputError  if the plan is for soft-finger contacts.
+/// @throws std::invalid_argument  as CheckGravity.
+void CheckReplayable(const kinematics::HandModel& hand, const plan::Plan& plan) {
+  CheckGravity(hand, plan);
+  if (plan.torsion == 0) return;
+  throw InputError(
+      "hand replay: soft-finger contacts not supported, expected hard contacts; help: --replay "
+      "points");
 }
 
 }  // namespace
@@ -267,12 +278,7 @@ void CheckGravity(const kinematics::HandModel& hand, const plan::Plan& plan) {
 ReplayResult ReplayHand(const kinematics::HandFile& file, const object::Polyhedron& solid,
                         const plan::Plan& plan, const HandReplayOptions& given,
                         const ReplayObserver& observer, int steps) {
-  CheckGravity(file.hand, plan);
-  if (plan.torsion != 0) {
-    throw InputError(
-        "hand replay: soft-finger contacts not supported, expected hard contacts; help: "
-        "--replay points");
-  }
+  CheckReplayable(file.hand, plan);
   const int entries = steps < 0 ? static_cast<int>(plan.steps.size()) + 1 : steps;
   if (given.engine != EngineChoice::kBoth) {
     return ReplayOnce(file, solid, plan, given, observer, entries);
@@ -318,6 +324,7 @@ struct HandReplays::Impl {
   HandReplayOptions options = {};  ///< options with the mass of the object
   double friction_angle = 0;
   double scale = 0;
+  bool has_gravity_support = false;
   std::unique_ptr<HandEngine> world = {};
   Next begun = {};  ///< initial grasps
   int known = 0;    ///< total number of stored static grasps
@@ -329,6 +336,9 @@ struct HandReplays::Impl {
 
   void MakeWorldFor(const plan::Plan& plan) {
     HandReplayOptions wanted = WithMass(given, solid, plan);
+    const bool has_support = plan.hand->gravity_support.has_value();
+    if (has_support != has_gravity_support) Forget();
+    has_gravity_support = has_support;
     if (world && friction_angle == plan.friction_angle && scale == plan.scale &&
         options.mass_kg == wanted.mass_kg) {
       return;
@@ -380,7 +390,7 @@ HandReplays::HandReplays(kinematics::HandFile file, const object::Polyhedron& so
 HandReplays::~HandReplays() = default;
 
 ReplayResult HandReplays::Replay(const plan::Plan& plan, const Deadline& deadline) {
-  CheckGravity(impl_->file.hand, plan);
+  CheckReplayable(impl_->file.hand, plan);
   return impl_->Run(plan, deadline);
 }
 
@@ -390,12 +400,6 @@ namespace {
 std::uint64_t SensingSeed(std::uint64_t nominal, std::uint64_t seed, int trial) {
   constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, with well-mixed bits
   return (nominal + kFactor * (seed + 1)) * kFactor + static_cast<std::uint64_t>(trial);
-}
-
-Eigen::Vector3d DrawNormalVector(double deviation, RandomStream& random) {
-  Eigen::Vector3d drawn;
-  for (double& x : drawn) x = deviation * random.Normal();
-  return drawn;
 }
 
 }  // namespace

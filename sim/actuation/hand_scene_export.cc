@@ -297,7 +297,7 @@ class SceneWriter {
         if (name != nullptr && *name == kHandSceneObject) {
           element.attributes = {{"name", *name}, {"type", "mesh"}, {"mesh", kHandSceneObject}};
         }
-        // Only fingertips and the object make contact: SetContacts.
+        // Only fingertips and the object make contact: AddContacts.
         element.Set("contype", "0");
         element.Set("conaffinity", "0");
       } else if (element.name == "body" && name != nullptr) {

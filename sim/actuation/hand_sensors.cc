@@ -15,19 +15,19 @@ using Eigen::Vector3d;
 /// simulation's time.
 constexpr double kEarly = 1e-6;
 
-Vector3d DrawVector(double deviation, RandomStream& random) {
+PoseDeviation DrawDeviation(double length, double angle, std::uint64_t seed, std::uint64_t index) {
+  RandomStream random(seed, RandomUse::kPoseErrors, index);
+  const Vector3d shift = DrawNormalVector(length, random);
+  return {shift, DrawNormalVector(angle, random)};
+}
+
+}  // namespace
+
+Vector3d DrawNormalVector(double deviation, RandomStream& random) {
   Vector3d drawn;
   for (double& x : drawn) x = deviation * random.Normal();
   return drawn;
 }
-
-PoseDeviation DrawDeviation(double length, double angle, std::uint64_t seed, std::uint64_t index) {
-  RandomStream random(seed, RandomUse::kPoseErrors, index);
-  const Vector3d shift = DrawVector(length, random);
-  return {shift, DrawVector(angle, random)};
-}
-
-}  // namespace
 
 HandSensors::HandSensors(const HandEngine& world, const HandSensing& sensing)
     : world_(world),

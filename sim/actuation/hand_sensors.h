@@ -5,10 +5,15 @@
 #include <deque>
 #include <optional>
 
+#include "planner/base/random.h"
 #include "sim/actuation/hand_engine.h"
 #include "sim/scene/settings.h"
 
 namespace regrasp::sim {
+
+/// Draw a vector whose coordinates are normally distributed.
+/// @param deviation  standard deviation of each coordinate.
+[[nodiscard]] Eigen::Vector3d DrawNormalVector(double deviation, RandomStream& random);
 
 /// Deviation of a measured object pose from the planned pose at the time of the measurement.
 struct PoseDeviation {

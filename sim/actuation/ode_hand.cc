@@ -38,10 +38,6 @@ OdeHand::OdeHand(const kinematics::HandFile& file, const object::Polyhedron& sol
 OdeHand::~OdeHand() = default;
 
 double OdeHand::time() const { return impl_->time; }
-double OdeHand::solutions_per_step() const {
-  return impl_->steps == 0 ? 0 : static_cast<double>(impl_->solutions) / impl_->steps;
-}
-
 void OdeHand::Place(const plan::HandState& state) {
   Impl& impl = *impl_;
   impl.Stop();

@@ -61,8 +61,6 @@ class OdeHand final : public HandEngine {
   void Step() override;
   [[nodiscard]] State Save() const override;
   void Restore(const State& state) override;
-  /// Return the mean number of solutions per step.
-  [[nodiscard]] double solutions_per_step() const;
 
  private:
   struct Impl;

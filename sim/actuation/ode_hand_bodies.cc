@@ -287,7 +287,6 @@ bool OdeHandBodies::Solve(int tried, std::vector<Touch>& trial) {
   std::vector<dJointFeedback> feedback(trial.size());
   std::vector<int> saturated(drives.size(), 0);
   for (int solution = 0; solution < kMostOdeSolutions; ++solution) {
-    ++solutions;
     LoadBodies();
     LoadMotors(saturated);
     LoadRods();
@@ -310,7 +309,6 @@ bool OdeHandBodies::Solve(int tried, std::vector<Touch>& trial) {
 }
 
 void OdeHandBodies::Step() {
-  ++steps;
   FindTouches();
   double compliance = kOdeCompliance / mass * timestep;
   for (int tried = 0; tried < kMostOdeTries; ++tried, compliance *= kOdeSofter) {

@@ -67,7 +67,6 @@ struct OdeHandBodies {
   // Results.
   std::vector<Eigen::Isometry3d> poses;  ///< poses of the links
   Eigen::VectorXd forces;                ///< forces of actuators, by link
-  long steps = 0, solutions = 0;
 
   /// @param given  must outlive this object.
   /// @throws InputError  as LinkTree, JointDrivesOf and LinkCouplingsOf.

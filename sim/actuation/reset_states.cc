@@ -99,7 +99,8 @@ std::variant<ResetState, Reason> ResetStates::Make(const plan::HandState& rest,
 void ResetStates::TakeHold(const plan::HandState& rest, const plan::FingerGrasp& grasp,
                            double grasp_force_N) {
   world_.Place(rest);
-  // Feedback is off, since the stored state is the final one, at any pose of the object.
+  // The measured pose is not used, since the stored state is the final one, at any pose of the
+  // object.
   HandControl control(world_, solid_, scale_,
                       {options_.friction_angle, weight_N_, {.feedback = PoseFeedback::kNone}});
   Hold hold = {{}, grasp_force_N};

@@ -277,9 +277,7 @@ std::optional<NearPair> Checker::FindNear(const Instant& middle, const std::vect
     const plan::FingerContact* touched = plan::FindFinger(middle.holding, owner.finger);
     if (touched == nullptr) touched = plan::FindFinger(others, owner.finger);
     const double needed = NeededFromObject(a, middle.state.pose, touched);
-    ConvexBody part = placed[a];
-    for (Vector3d& point : part.points) point = to_object * point;
-    part.centre = to_object * part.centre;
+    const ConvexBody part = Moved(to_object, placed[a]);
     for (const ConvexBody& triangle : triangles_) {
       if (HaveGap(part, triangle, needed + (bounds[a] + object_bound) / 2)) continue;
       return NearPair{a, -1, needed};

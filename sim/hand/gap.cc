@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace regrasp::sim {
 namespace {
@@ -21,8 +22,15 @@ constexpr double kFinestWay = 1e-6;  // metres
 constexpr double kLongestWay = 10;
 
 const Vector3d& FarthestAlong(const std::vector<Vector3d>& points, const Vector3d& direction) {
-  return *std::ranges::max_element(points, {},
-                                   [&](const Vector3d& point) { return point.dot(direction); });
+  const Vector3d* farthest = &points.front();
+  double most = farthest->dot(direction);
+  for (const Vector3d& point : points) {
+    const double along = point.dot(direction);
+    if (along <= most) continue;
+    most = along;
+    farthest = &point;
+  }
+  return *farthest;
 }
 
 /// Point of the difference of two hulls, as a weighted mean of its corners.
@@ -88,17 +96,14 @@ Nearness Measure(const ConvexBody& a, const ConvexBody& b) {
   return {gap, between.InFirst() + (a.radius + gap / 2) * from_a};
 }
 
-ConvexBody Moved(ConvexBody solid, const Vector3d& way) {
-  for (Vector3d& point : solid.points) point += way;
-  solid.centre += way;
-  return solid;
-}
-
 }  // namespace
 
 ConvexBody MakeConvexBody(std::vector<Vector3d> points, double radius) {
   ConvexBody solid{std::move(points), radius, Vector3d::Zero(), 0};
-  for (const Vector3d& point : solid.points) solid.centre += point;
+  for (const Vector3d& point : solid.points) {
+    solid.centre += point;
+    solid.box.extend(point);
+  }
   solid.centre /= static_cast<double>(solid.points.size());
   for (const Vector3d& point : solid.points) {
     solid.reach = std::max(solid.reach, (point - solid.centre).norm());
@@ -107,10 +112,15 @@ ConvexBody MakeConvexBody(std::vector<Vector3d> points, double radius) {
   return solid;
 }
 
+ConvexBody Moved(const Eigen::Isometry3d& pose, ConvexBody solid) {
+  for (Vector3d& point : solid.points) point = pose * point;
+  return MakeConvexBody(std::move(solid.points), solid.radius);
+}
+
 bool HaveGap(const ConvexBody& a, const ConvexBody& b, double gap) {
   if ((a.centre - b.centre).norm() - a.reach - b.reach > gap) return true;
   const double needed = gap + a.radius + b.radius;
-  if (needed < 0) return true;
+  if (needed < 0 || a.box.exteriorDistance(b.box) > needed) return true;
   MeanOfCorners between(a.points.front(), b.points.front());
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector3d& mean = between.mean();
@@ -138,7 +148,7 @@ Nearness NearestOf(const ConvexBody& solid, std::span<const ConvexBody> others) 
 double FreeingDistance(const ConvexBody& solid, std::span<const ConvexBody> others,
                        std::span<const Vector3d> directions) {
   const auto is_free = [&](const Vector3d& way) {
-    const ConvexBody moved = Moved(solid, way);
+    const ConvexBody moved = Moved(Eigen::Isometry3d(Eigen::Translation3d(way)), solid);
     return std::ranges::all_of(others,
                                [&](const ConvexBody& other) { return HaveGap(moved, other, 0); });
   };

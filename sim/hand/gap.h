@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
@@ -13,10 +13,14 @@ struct ConvexBody {
   /// Bounding sphere.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double reach = 0;
+  Eigen::AlignedBox3d box = {};  ///< bounding box of the points
 };
 
-/// Make a convex body with its bounding sphere.
+/// Make a convex body with its bounding sphere and box.
 [[nodiscard]] ConvexBody MakeConvexBody(std::vector<Eigen::Vector3d> points, double radius);
+
+/// Return a body at another pose.
+[[nodiscard]] ConvexBody Moved(const Eigen::Isometry3d& pose, ConvexBody solid);
 
 /// Return whether two solids are certainly more than `gap` apart.
 /// A negative gap allows overlap by less than that, as far as the radii extend. The pairwise

@@ -105,12 +105,6 @@ std::vector<Vector3d> AllDirections() {
   return directions;
 }
 
-ConvexBody MovedSolid(const Isometry3d& pose, ConvexBody solid) {
-  for (Vector3d& point : solid.points) point = pose * point;
-  solid.centre = pose * solid.centre;
-  return solid;
-}
-
 /// Return directions out of the surface that a solid penetrates: the normals of its triangles.
 std::vector<Vector3d> WaysOut(const ConvexBody& solid, std::span<const ConvexBody> surface) {
   std::vector<Vector3d> ways;
@@ -287,7 +281,7 @@ double GapBetween(HandBody& body, const HandState& state, int a, int b) {
 double GapToObject(HandBody& body, const HandState& state, int part,
                    std::span<const ConvexBody> surface) {
   body.SetJoints(state.joints);
-  return NearestOf(MovedSolid(state.pose.inverse(), body.Place(part)), surface).gap;
+  return NearestOf(Moved(state.pose.inverse(), body.Place(part)), surface).gap;
 }
 
 HandFinding PartsCollide(HandBody& body, const HandState& state, int a, int b, double clearance,
@@ -310,7 +304,7 @@ HandFinding PartMeetsObject(HandBody& body, const HandState& state, int part,
                             std::span<const ConvexBody> surface, double needed,
                             const std::string& when) {
   body.SetJoints(state.joints);
-  const ConvexBody solid = MovedSolid(state.pose.inverse(), body.Place(part));
+  const ConvexBody solid = Moved(state.pose.inverse(), body.Place(part));
   Nearness nearness = NearestOf(solid, surface);
   const std::vector<Vector3d> ways = WaysOut(solid, surface);
   if (nearness.gap < 0 && !ways.empty()) nearness.gap = -FreeingDistance(solid, surface, ways);

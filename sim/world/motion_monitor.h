@@ -96,8 +96,6 @@ class MotionMonitor {
   [[nodiscard]] double rotation_rad() const { return rotation_; }
   /// Largest |Δx| + R |Δrotation|, to which the tolerance applies.
   [[nodiscard]] double moved_m() const { return moved_; }
-  /// Current |Δx| + R |Δrotation|.
-  [[nodiscard]] double moved_now_m() const { return moved_now_; }
   /// Return whether the object's displacement exceeds kLostMotion times the tolerance.
   /// Continuing the simulation would then take long and add no information.
   [[nodiscard]] bool lost() const;

@@ -178,6 +178,16 @@ class EvaluateOutput(OutputCase):
         self.evaluated(text, "p.html", code=2, more=["--images", "images"])
         self.assertEqual(self.read("images/000001.png"), pictures[0])
 
+    def test_a_deleted_image_is_drawn_again_although_its_record_is_kept(self):
+        grasps = [grasp("hold"), grasp("open", 0.0)]
+        self.evaluated(grasps, "r.jsonl", more=["--images", "images"])
+        pictures = {name: self.read(f"images/{name}") for name in sorted(os.listdir(self.path("images")))}
+        os.remove(self.path("images/000002.png"))
+        records = self.read("r.jsonl")
+        self.assertIn("1 kept", self.evaluated(grasps, "r.jsonl", more=["--images", "images"]).stderr)
+        self.assertEqual({name: self.read(f"images/{name}") for name in sorted(os.listdir(self.path("images")))}, pictures)
+        self.assertEqual(self.read("r.jsonl"), records)
+
     def test_wrong_combinations_are_refused(self):
         self.write("grasps.jsonl", hand_grasp_files.lines([grasp("a")]))
         start = ["--grasps", "grasps.jsonl", "--hand", "gripper.json", "--object", "objects"]

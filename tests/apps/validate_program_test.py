@@ -159,7 +159,7 @@ class Validate(ProgramCase):
 
     def test_both_protocols_are_told_apart_and_the_adapted_one_decides(self):
         done, report = self.assert_passes("--frames", "none", disturbance="both")
-        self.assertIn("fixed_squeeze", done.stdout)
+        self.assertIn("fixed_force", done.stdout)
         for step in report["steps"]:
             self.assertEqual(set(step["protocols"]), {"adapted", "fixed"})
             self.assertEqual(step["simulation"]["motion_m"],
@@ -176,7 +176,7 @@ class Validate(ProgramCase):
         failed = self.assert_fails(first, disagreements[0]["protocols"]["fixed"]["reason"],
                                    disturbance="fixed,0.06")
         self.assertEqual(set(failed["steps"][first]["protocols"]), {"fixed"})
-        self.assertNotIn("fixed_squeeze", self.assert_passes("--frames", "none")[0].stdout)
+        self.assertNotIn("fixed_force", self.assert_passes("--frames", "none")[0].stdout)
         self.refuse("--disturbance: ", disturbance="loose")
         self.refuse("--disturbance: found adapted and fixed, expected one of them",
                     disturbance="adapted,0.01,fixed")

@@ -360,6 +360,17 @@ class Viewer(ProgramCase):
         self.assertEqual(self.browser.value(ground), "rgb(255, 255, 255)")
         self.assertEqual(self.browser.value("getComputedStyle(document.getElementById('viewer')).display"), "none")
 
+    def test_pictures_and_animations_are_dimmed_in_the_dark_scheme_only(self):
+        self.validate_cube("--video")
+        for selector in (".frames img", ".replay video"):
+            dimming = f"getComputedStyle(document.querySelector('{selector}')).filter"
+            self.browser.resize(1000, 1000)
+            self.open()
+            self.assertEqual(self.browser.value(dimming), "none", selector)
+            self.browser.resize(1000, 1000, dark=True)
+            self.open()
+            self.assertIn("brightness", self.browser.value(dimming), selector)
+
     def assert_shows_a_picture_instead(self, browser):
         self.assertFalse(browser.value(RUNNING))
         self.assertEqual(browser.value("getComputedStyle(document.getElementById('viewer')).display"), "none")

@@ -102,6 +102,12 @@ class HandsTest(RegraspCase):
         self.assertTrue(report.passed, report)
         self.assertEqual([row["verdict"] for row in report.data["goals"]], ["pass", "pass"])
 
+    def test_the_second_engine_replays_the_hand(self):
+        plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 20))
+        report = regrasp.validate(self.cube, plan, hand=self.hand, engine="ode")
+        self.assertTrue(report.passed, report)
+        self.assertEqual(report.data["settings"]["engine"], "ode")
+
     def test_fingertips_roll_if_required(self):
         plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 45), rolling=True)
         moves = [step for step in plan.steps if step["kind"] == "move"]

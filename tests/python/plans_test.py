@@ -70,6 +70,23 @@ class PlansTest(RegraspCase):
         with open(self.path("new/report/report.json"), encoding="utf-8") as file:
             self.assertEqual(file.read(), report.text)
 
+    def test_a_plan_states_how_several_shells_were_read(self):
+        with open("models/cube.obj", encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        corners = [line.split()[1:] for line in lines if line.startswith("v ")]
+        faces = [[int(word.split("/")[0]) for word in line.split()[1:]] for line in lines if line.startswith("f ")]
+        text = ""
+        for size, shift in ((1, 0), (0.5, 0.2)):
+            text += "".join(f"v {size * float(x) + shift} {size * float(y)} {size * float(z)}\n" for x, y, z in corners)
+        for first in (0, len(corners)):
+            text += "".join("f " + " ".join(str(first + corner) for corner in face) + "\n" for face in faces)
+        with open(self.path("two.obj"), "w", encoding="utf-8") as file:
+            file.write(text)
+        two = regrasp.Object.read(self.path("two.obj"), shells="largest")
+        plan = regrasp.plan(two, START, GOAL, friction_angle_deg=20)
+        self.assertEqual(plan.data["object"]["shells"], "largest")
+        self.assertNotIn("shells", self.plan.data["object"])
+
     def test_a_plan_for_another_size_of_the_object_is_refused(self):
         small = regrasp.Object.read("models/cube.obj", scale=0.5)
         words = ["plan.json: /object/scale", "cube.obj", "expected 0.5", "found 1", "scale=1"]

@@ -176,6 +176,42 @@ TEST(Failure, OfAHandThatCollidesTellsTheClearanceThatThereIsIfThereIsOne) {
   EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("links penetrate each other"));
 }
 
+TEST(Failure, OfAHandIsHeldAgainstTheLimitsOfTheCheckOrOfTheReplay) {
+  struct Case {
+    Reason reason;
+    std::string check, replay;  ///< part of the rule of each
+  };
+  for (const Case& expected :
+       {Case{Reason::kCouplingViolated, "to 1 µrad", "within 1° of their coupling"},
+        Case{Reason::kHandCollides, "keep the clearance", "must not touch"},
+        Case{Reason::kJointLimit, "within the limits of the hand's model", "model, to 1°"}}) {
+    Report checked = FailingFor(expected.reason, 5);
+    checked.steps[1].check.fault.hand.emplace();
+    Report replayed = FailingFor(Reason::kNone, 5);
+    sim::StepReplay& replay = replayed.steps[1].replay.emplace();
+    replay.reason = expected.reason;
+    replay.fault.hand.emplace();
+    EXPECT_THAT(DescribeFailure(checked)->why, HasSubstr(expected.check));
+    EXPECT_THAT(DescribeFailure(checked)->why, Not(HasSubstr(expected.replay)));
+    EXPECT_THAT(DescribeFailure(replayed)->why, HasSubstr(expected.replay));
+  }
+}
+
+TEST(Failure, OfACouplingInTheReplayIsMendedInTheModel) {
+  Report report = FailingFor(Reason::kNone, 5);
+  sim::StepReplay& replay = report.steps[1].replay.emplace();
+  replay.reason = Reason::kCouplingViolated;
+  replay.fault.hand.emplace();
+  EXPECT_THAT(DescribeFailure(report)->suggested_fix, HasSubstr("use a model"));
+}
+
+TEST(Failure, OfATorqueLimitStatesTheTimeThatTheReplayTolerates) {
+  Report report = FailingFor(Reason::kNone, 5);
+  report.steps[1].replay.emplace().reason = Reason::kTorqueLimit;
+  report.settings.emplace().hand.emplace().tolerance.limit_s = 0.02;
+  EXPECT_THAT(DescribeFailure(report)->why, EndsWith("longer than 20 ms"));
+}
+
 TEST(Failure, OfAGoalThatIsNotReachedKnowsContactsFromPoses) {
   Report report = FailingFor(Reason::kGoalNotReached, 5);
   EXPECT_THAT(DescribeFailure(report)->why, HasSubstr("contacts"));

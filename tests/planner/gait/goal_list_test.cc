@@ -144,6 +144,28 @@ TEST(GoalListTest, PlansAreSimulatedFromTheInitialGrasp) {
   EXPECT_GE(static_cast<int>(steps.back()), found.plan->hand->goals[0].step);
 }
 
+TEST(GoalListTest, AFailureAfterTheFirstGoalIsCountedFromTheStartOfThePlan) {
+  GaitRequest request = QuickRequest();
+  request.robustness = RobustnessLevel::kPreferred;
+  request.most_expanded = 30;
+  request.goals = {{"a", Facing({1, 0, 1}, 40)}, {"b", Facing({0, 0, 1}, 4)}};
+  // The first step after the first goal fails.
+  request.simulate = [](const plan::Plan& plan, const Deadline&) {
+    const bool is_whole = plan.hand->goals.size() == 1;
+    return planning::ExecutionResult{
+        .is_held = true,
+        .steps = plan.hand->goals.front().step,
+        .is_whole = is_whole,
+        .reason = is_whole ? plan::Reason::kNone : plan::Reason::kSlipped};
+  };
+  const GoalListResult found = FindPlanThroughGoals(request);
+  ASSERT_TRUE(found.plan) << found.message;
+  ASSERT_TRUE(found.execution);
+  EXPECT_FALSE(found.execution->is_whole);
+  ASSERT_GT(found.plan->hand->goals.front().step, 0);
+  EXPECT_EQ(found.execution->steps, found.plan->hand->goals.front().step);
+}
+
 TEST(GoalListTest, AStartStateIsKept) {
   GaitRequest request = QuickRequest();
   request.turn = {Vector3d::UnitZ(), Radians(30)};

@@ -336,6 +336,20 @@ TEST(ScheduleTest, ReportsTheFailureOfThePlanThatExecutesFarthest) {
   EXPECT_EQ(none.execution->reason, plan::Reason::kSlipped);
 }
 
+TEST(ScheduleTest, TheReasonIsThatOfTheSearchThatReachesFarthest) {
+  GaitRequest request = RequestFor("cube", 0.8, 90);
+  request.robustness = RobustnessLevel::kRequired;
+  request.simulate = [](const plan::Plan&, const Deadline&) { return planning::ExecutionResult(); };
+  int searches = 0;
+  const FindOne find = [&](const GaitRequest& asked, std::span<const RobustnessMargins>) {
+    if (!asked.simulate) return FoundGait{std::nullopt, "complete gait", 1};
+    const int index = searches++;
+    return FoundGait{std::nullopt, "search " + std::to_string(index), index == 1 ? 0.7 : 0.4};
+  };
+  EXPECT_EQ(FindExecutableGait(request, {}, find).found.message, "search 1");
+  EXPECT_GT(searches, 2);
+}
+
 TEST(ScheduleTest, FailedEdgesAreCountedByReason) {
   GaitRequest request = RequestFor("cube", 0.8, 180);
   request.robustness = RobustnessLevel::kRequired;

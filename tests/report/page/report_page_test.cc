@@ -269,6 +269,25 @@ TEST(StepMeasuresTest, MotionIsWhatTheToleranceIsAbout) {
   EXPECT_FALSE(measures[2].moved_m || measures[2].margin_deg || measures[2].slip_m);
 }
 
+/// Each limit of a replay by a hand is that of its own quantity.
+TEST(StepMeasuresTest, OfAHandAreSharesOfItsLimits) {
+  Scene scene(/*fails=*/false);
+  EXPECT_FALSE(MeasureSteps(scene.report)[1].deviation_percent);
+  EXPECT_THAT(FormatReportHtml(scene.report, scene.plan, {}), HasSubstr("Motion of the object."));
+  scene.report.settings->hand.emplace();
+  for (ReportStep& step : scene.report.steps) step.replay->hand.emplace();
+  sim::HandMeasures& hand = *scene.report.steps[1].replay->hand;
+  hand.off_m = 1e-3;       // 50 % of 2 mm
+  hand.rest_off_m = 8e-4;  // 80 % of 1 mm
+  hand.slip_m = 1.5e-3;    // 150 % of 1 mm
+  const StepMeasures measures = MeasureSteps(scene.report)[1];
+  EXPECT_THAT(measures.deviation_percent, Optional(DoubleNear(80, 1e-9)));
+  EXPECT_THAT(measures.slip_percent, Optional(DoubleNear(150, 1e-9)));
+  const std::string page = FormatReportHtml(scene.report, scene.plan, {});
+  EXPECT_THAT(page, HasSubstr("Deviation of the object."));
+  EXPECT_THAT(page, Not(HasSubstr("Motion of the object.")));
+}
+
 TEST(StepMeasuresTest, TheMarginAtRestIsThatOfTheForceThatLeansMost) {
   Scene scene(/*fails=*/false);
   EXPECT_FALSE(MeasureSteps(scene.report)[1].static_margin_deg);

@@ -155,6 +155,19 @@ TEST_F(ConditionReplaysTest, AReplayContinuesAfterAViolation) {
   EXPECT_EQ(summary.ended_within(), 1);
 }
 
+/// A requirement cannot be met by conditions that do not apply.
+TEST_F(ConditionReplaysTest, WithoutAnApplicableConditionARequirementFails) {
+  HandReplayOptions nominal;
+  nominal.mass_kg = kMass;
+  nominal.engine = EngineChoice::kOde;
+  const auto conditions = ReadConditions(R"([{"name": "cones", "cones": "pyramidal"}])", "c.json");
+  ConditionSummary summary = RunConditions(hand_, solid(), plan_, nominal, conditions, 1);
+  EXPECT_EQ(summary.applicable(), 0);
+  EXPECT_TRUE(summary.enough());
+  summary.required = 1;
+  EXPECT_FALSE(summary.enough());
+}
+
 TEST_F(ConditionReplaysTest, TheRequiredShareDecides) {
   ConditionSummary summary = Run(R"([{"name": "same"}, {"name": "icy", "friction_factor": 0.1}])");
   EXPECT_EQ(summary.applicable(), 2);

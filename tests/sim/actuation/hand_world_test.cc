@@ -204,6 +204,17 @@ TEST_F(HandWorldTest, WideRangesOfControlsChangeNothing) {
   }
 }
 
+TEST_F(HandWorldTest, AnActuatorThatActsInOneDirectionIsRefused) {
+  const kinematics::HandFile hand = HandWith({{"forcerange=\"-1.0 1.0\"", "forcerange=\"0 1.0\""}});
+  try {
+    const HandWorld world(hand, solid(), kScale, WorldOptions());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("force range of actuator finger0_motor0"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("found 0 to 1"));
+  }
+}
+
 TEST_F(HandWorldTest, LimitsAreThoseOfTheModel) {
   const HandWorld plain(HandWith({}), solid(), kScale, WorldOptions());
   ASSERT_EQ(plain.limits().size(), 20U);

@@ -39,6 +39,30 @@ TEST(GapTest, KnownGaps) {
   EXPECT_FALSE(HaveGap(at_origin, MakeConvexBody({Vector3d(0.1, 0.2, 0.3)}, 0), 0));
 }
 
+/// A law of distances, with bounding boxes that change with the orientation.
+TEST(GapTest, RigidMotionsOfBothBodiesKeepTheGap) {
+  RandomStream random(2, RandomUse::kGaits);
+  const auto draw = [&random] { return Vector3d(random.Normal(), random.Normal(), random.Normal()); };
+  for (int i = 0; i < 50; ++i) {
+    const auto hull = [&](const Vector3d& centre) {
+      std::vector<Vector3d> points;
+      for (int k = 0; k < 12; ++k) points.push_back(centre + draw().cwiseProduct(Vector3d(1, 1, 8)));
+      return MakeConvexBody(std::move(points), 0.1);
+    };
+    const ConvexBody a = hull(Vector3d::Zero());
+    const ConvexBody b = hull(9 * draw());
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(random.Normal(), draw().normalized()));
+    pose.translation() = draw();
+    const double gap = NearestOf(a, {&b, 1}).gap;
+    if (gap < 0.01) continue;
+    for (const double share : {0.98, 1.02}) {
+      const bool is_clear = HaveGap(a, b, share * gap);
+      EXPECT_EQ(is_clear, share < 1) << i;
+      EXPECT_EQ(HaveGap(Moved(pose, a), Moved(pose, b), share * gap), is_clear) << i;
+    }
+  }
+}
+
 TEST(GapTest, TheNearestOfSomeAndThePlaceBetween) {
   const ConvexBody ball = MakeConvexBody({Vector3d(0, 0, 0)}, 0.5);
   const std::vector<ConvexBody> others = {
