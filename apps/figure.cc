@@ -324,8 +324,9 @@ std::unique_ptr<render::FigurePanels> FigureProgram::Panels(const object::Object
   const kinematics::HandFile file =
       kinematics::HandOfPlan(kinematics::ReadHandFile(hand_path), plan);
   if (file.hand.sha256 != plan.hand->sha256) {
-    throw InputError("--hand: expected " + DescribeFile(plan.hand->file, plan.hand->sha256) +
-                     ", found " + DescribeFile(hand_path, file.hand.sha256));
+    throw InputError("--hand: " + plan_path + " is for another hand, expected " +
+                     DescribeFile(plan.hand->file, plan.hand->sha256) + ", found " +
+                     DescribeFile(hand_path, file.hand.sha256));
   }
   const report::HandPicture picture(file, plan, plan.scale * object.mass_properties().centroid);
   render::FigureHand hand = {picture.view(), picture.FingerNames(), {}};

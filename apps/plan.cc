@@ -26,6 +26,7 @@
 #include "planner/object/polyhedron.h"
 #include "planner/plan/grasp_io.h"
 #include "planner/plan/plan_io.h"
+#include "sim/scene/scaling.h"
 
 namespace {
 
@@ -63,10 +64,15 @@ void CheckOutput(const PlanProgram& program) {
 /// An error about its surface includes the expected result of a repair.
 object::ObjectFile ReadObject(const PlannerOptions& common) {
   try {
-    return common.ReadObjectFile(kPlanName);
+    object::ObjectFile file = common.ReadObjectFile(kPlanName);
+    sim::CheckDiameter(common.scale * file.object->diameter());
+    return file;
   } catch (const object::MeshError& error) {
     ProgressLine progress(common.quiet);
-    throw InputError(error.what() + RepairHint(common.object, {progress.reporter(), {}}));
+    // The hint replaces a general one.
+    const std::string text = error.what();
+    throw InputError(text.substr(0, text.find("; help:")) +
+                     RepairHint(common.object, {progress.reporter(), {}}));
   }
 }
 

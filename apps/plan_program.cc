@@ -128,11 +128,19 @@ void PlanProgram::AddBatch(CLI::App& app) {
 planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Object& object) const {
   using Kind = planning::GraspChoice::Kind;
   if (!end.text.empty()) {
-    return {Kind::kGiven, plan::ParseGrasp(end.text, end.name, object), end.name};
+    try {
+      return {Kind::kGiven, plan::ParseGrasp(end.text, end.name, object), end.name};
+    } catch (const InputError&) {
+      if (&end != &start || !continues_rolled) throw;
+      throw InputError("--continue: " + hand.continue_plan +
+                       ": the plan ends with a rolled contact on an edge of the object, expected "
+                       "contacts on faces; help: plan its last part without --rolling on");
+    }
   }
   const std::string& value = end.value;
   // The value is not a file, but it may be a misspelt word.
-  if (!end.is_random() && !std::filesystem::exists(value)) {
+  std::error_code error;  // the name may be too long
+  if (!end.is_random() && !std::filesystem::exists(value, error)) {
     const std::string meant = SimilarWord(value, {kRandom, kRandomAny});
     if (!meant.empty()) throw InputError(end.option + ": file " + value + " not found" + meant);
   }
@@ -276,6 +284,7 @@ void PlanProgram::ReadContinuedPlan() {
   hand_file =
       std::make_shared<const kinematics::HandFile>(kinematics::HandOfPlan(*hand_file, *continued));
   const plan::FingerGrasp grasp = plan::EndOfPlan(*continued).grasp;
+  continues_rolled = plan::HasRolling(*continued);
   start.text = plan::FormatGrasp(plan::ContactsOf(grasp), continued->dimension);
   start.name = path + ": the grasp after the last step";
 }

@@ -64,7 +64,8 @@ struct PlanProgram {
   std::shared_ptr<const kinematics::HandFile> hand_file;
   /// Plan of --continue after ReadHand; null: none.
   std::shared_ptr<const plan::Plan> continued;
-  std::string batch;  ///< file of queries, which override the options
+  bool continues_rolled = false;  ///< whether fingertips roll in `continued`
+  std::string batch;              ///< file of queries, which override the options
   std::string shard;
   int jobs;
   bool fresh = false;  ///< whether to discard the results of an earlier run

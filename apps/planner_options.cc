@@ -11,6 +11,7 @@
 #include "planner/base/error.h"
 #include "planner/base/memory.h"
 #include "planner/base/number.h"
+#include "planner/criteria/reach.h"
 #include "planner/gait/request.h"
 #include "planner/object/object.h"
 #include "planner/object/read_object.h"
@@ -168,6 +169,7 @@ planning::PlanRequest PlannerOptions::RequestFor(const object::Object& of) const
   request.object_name = object;
   request.criteria.friction_angle = PlannedFrictionAngle();
   request.hand.torsion = contact.torsion().value_or(0);
+  criteria::CheckTorsion(of, request.hand.torsion, "--torsion");
   request.seed = seed;
   request.deadline = deadline();
   request.parameters.Edit<sets::SetParameters>().spanning = spanning;

@@ -73,13 +73,20 @@ int FlushResults(const std::string& program, int exit_code) {
 constexpr char kHelpAs[] = "--help-as";
 constexpr char kHelpAll[] = "--help-all";
 
+/// @throws InputError  that an option has an empty value, as of an undefined shell variable.
+[[noreturn]] void FailEmpty(const OptionHelp& option) {
+  throw InputError(option.name + ": must not be empty, expected " + option.type);
+}
+
 /// Check the number of words that follow an option.
 /// @param words  words between an option and the next one.
-/// @throws InputError  if the option has no value, or several words instead of one list.
+/// @throws InputError  if the option has no value, an empty one, or several words instead of one
+///     list.
 void CheckValue(const OptionHelp& option, std::span<const std::string> words) {
   if (!option.type.empty() && words.empty() && !option.value_optional) {
     throw InputError(option.name + ": requires a value, as in " + option.name + " " + option.type);
   }
+  if (std::ranges::any_of(words, &std::string::empty)) FailEmpty(option);
   if (option.type.find(',') == std::string::npos || words.size() < 2) return;
   std::string value;
   for (const std::string& word : words) value += (value.empty() ? "" : ",") + word;
@@ -117,6 +124,7 @@ void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
       const auto rest = words.subspan(i + 1);
       const auto next = std::ranges::find_if(rest, IsOption) - rest.begin();
       if (name == given) CheckValue(*known, rest.first(next));
+      if (given.size() == name.size() + 1) FailEmpty(*known);  // "--output="
       continue;
     }
     // "-object" is read as "--object".
@@ -186,10 +194,23 @@ int Run(CLI::App& app, std::vector<std::string> words, const std::string& called
 
 namespace {
 
+/// Largest length of a message, bytes. A message repeats wrong values, of any length.
+constexpr std::size_t kMostMessage = 6000;
+
+/// Return a text without its middle if it is longer than a message.
+std::string Shortened(const std::string& text) {
+  if (text.size() <= kMostMessage) return text;
+  const auto begins_character = [&](std::size_t at) { return (text[at] & 0xc0) != 0x80; };
+  std::size_t head = kMostMessage / 2, tail = text.size() - kMostMessage / 2;
+  while (!begins_character(head)) --head;
+  while (!begins_character(tail)) ++tail;
+  return text.substr(0, head) + " … " + text.substr(tail);
+}
+
 /// Print a line on standard error, wrapped on a terminal.
 /// @param start  start of the line's text that is coloured.
 void PrintLine(const std::string& program, const std::string& line, std::size_t start, Ink ink) {
-  std::string text = program + ": " + line;
+  std::string text = program + ": " + Shortened(line);
   if (isatty(STDERR_FILENO) != 1) {
     std::cerr << text + "\n";
     return;

@@ -182,7 +182,9 @@ void FinishTask(const ValidateOptions& options, ValidateTask& task) {
 }  // namespace
 
 void CheckTorsionFits(const ValidateOptions& options, const object::Object& object) {
-  if (options.contact.torsion().value_or(0) == 0 || object.dimension() == 3) return;
+  if (options.contact.torsion().value_or(0) == 0) return;
+  criteria::CheckTorsion(object, *options.contact.torsion(), "--torsion");
+  if (object.dimension() == 3) return;
   throw InputError("--torsion: requires a solid, found the planar object " + options.object_path);
 }
 
@@ -253,7 +255,8 @@ validation::ValidationRequest RequestOf(const ValidateOptions& options, const Va
           .start = options.start.empty() ? nullptr : &task.start,
           .goal = options.goal.empty() ? nullptr : &task.goal,
           .given_points = task.plan.at_given_points ? &task.given_points : nullptr,
-          .options = ValidationOptionsOf(options)};
+          .options = ValidationOptionsOf(options),
+          .plan_name = options.plan_path};
 }
 
 validation::ValidationResult ValidateFiles(const ValidateOptions& options, const ValidateTask& task,

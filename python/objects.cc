@@ -45,7 +45,8 @@ PythonObject ReadFileAsObject(const std::filesystem::path& path, double scale, b
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     } catch (const object::MeshError& error) {
-      throw InputError(error.what() + repair::RepairHint(path, reading));
+      const std::string text = error.what();
+      throw InputError(text.substr(0, text.find("; help:")) + repair::RepairHint(path, reading));
     }
   }
   interrupt.ThrowIfRaised();

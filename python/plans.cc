@@ -152,6 +152,7 @@ planning::PlanResult Find(const PythonObject& object, const PlanArguments& given
                           const std::optional<planning::InHandTask>& task, Interrupt& interrupt) {
   const object::Object& body = *object.file.object;
   criteria::CheckFingerRadius(body, given.finger_radius, "finger_radius");
+  criteria::CheckTorsion(body, given.torsion, "torsion");
   planning::PlanRequest request;
   request.object = &body;
   request.object_name = object.file.file;

@@ -73,11 +73,13 @@ PythonReport Validate(const PythonObject& object, const std::string& text, const
     recorder.EndEntry();
     if (interrupt.raised()) throw TimeUp();
   };
-  report::Report report =
-      validation::Validate(
-          {.object = *object.file.object, .plan = plan, .hand = kept.get(), .options = options},
-          observer)
-          .report;
+  report::Report report = validation::Validate({.object = *object.file.object,
+                                                .plan = plan,
+                                                .hand = kept.get(),
+                                                .options = options,
+                                                .plan_name = name},
+                                               observer)
+                              .report;
   report.object_file = object.file.file;
   report.object_sha256 = object.file.sha256;
   report.plan_file = name;

@@ -167,7 +167,7 @@ void LinesOutput::BeginPart() {
   if (ftruncate(file_.get(), 0) != 0 || lseek(file_.get(), 0, SEEK_SET) < 0) {
     FailWith(std::strerror(errno));
   }
-  WriteAll(file_.get(), FormatHeader(header_));
+  Write(file_.get(), FormatHeader(header_));
 }
 
 bool LinesOutput::KeepNext(const Accept& accept) {
@@ -218,7 +218,7 @@ void LinesOutput::CopyWhole() {
     if (!keeping_.read(piece.data(), static_cast<std::streamsize>(piece.size()))) {
       FailWith(path_.string() + " was changed during the run");
     }
-    WriteAll(file_.get(), piece);
+    Write(file_.get(), piece);
     left -= static_cast<std::int64_t>(piece.size());
   }
 }
@@ -233,9 +233,9 @@ void LinesOutput::SetRestAside(std::int64_t begin) {
       open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kNewMode));
   if (file.get() < 0) FailWith(std::strerror(errno));
   EarlierLines lines(part_, begin);
-  while (const auto line = lines.Next()) WriteAll(file.get(), std::string(*line) + "\n");
+  while (const auto line = lines.Next()) Write(file.get(), std::string(*line) + "\n");
   while (const auto line = older.Next()) {
-    if (older.entry() > lines.entry()) WriteAll(file.get(), std::string(*line) + "\n");
+    if (older.entry() > lines.entry()) Write(file.get(), std::string(*line) + "\n");
   }
   if (fsync(file.get()) != 0 || rename(aside.c_str(), rest_.c_str()) != 0) {
     FailWith(std::strerror(errno));
@@ -260,6 +260,14 @@ void LinesOutput::Count(std::string_view line) {
   ++next_;
 }
 
+void LinesOutput::Write(int file, std::string_view text) const {
+  try {
+    WriteAll(file, text);
+  } catch (const std::system_error& error) {
+    FailWith(error.code().message());
+  }
+}
+
 void LinesOutput::Append(std::string_view lines) {
   EndKeeping();
   for (std::size_t begin = 0; begin < lines.size();) {
@@ -267,11 +275,7 @@ void LinesOutput::Append(std::string_view lines) {
     Count(lines.substr(begin, end - begin));
     begin = end + 1;
   }
-  try {
-    WriteAll(file_.get(), lines);
-  } catch (const std::system_error& error) {
-    FailWith(error.code().message());
-  }
+  Write(file_.get(), lines);
   if (fdatasync(file_.get()) != 0) FailWith(std::strerror(errno));
 }
 

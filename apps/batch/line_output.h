@@ -113,6 +113,9 @@ class LinesOutput {
   void SetRestAside(std::int64_t begin);
   void Count(std::string_view line);
   [[noreturn]] void FailWith(const std::string& what) const;
+  /// Write to the part or the rest file.
+  /// @throws EnvironmentError  if it fails, for example on a full disk.
+  void Write(int file, std::string_view text) const;
 
   std::filesystem::path path_, part_, rest_;
   LinesHeader header_;

@@ -105,10 +105,22 @@ bool KeepApart(std::span<const grasp::Contact> contacts, double radius) {
   return true;
 }
 
-void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
-  if (radius <= object.diameter()) return;
+namespace {
+
+void CheckLength(const object::Object& object, double length, const std::string& name) {
+  if (length <= object.diameter()) return;
   throw InputError(name + ": must be at most the object's diameter of " +
-                   FormatShort(object.diameter()) + kUnits + ", found " + FormatShort(radius));
+                   FormatShort(object.diameter()) + kUnits + ", found " + FormatShort(length));
+}
+
+}  // namespace
+
+void CheckFingerRadius(const object::Object& object, double radius, const std::string& name) {
+  CheckLength(object, radius, name);
+}
+
+void CheckTorsion(const object::Object& object, double torsion, const std::string& name) {
+  CheckLength(object, torsion, name);
 }
 
 std::optional<std::string> FindObstacle(const object::Object& object, const grasp::Contact& contact,

@@ -60,6 +60,12 @@ inline constexpr double kFingertipClearance = 5e-4;
 /// @throws InputError  if the radius is larger than the object's diameter.
 void CheckFingerRadius(const object::Object& object, double radius, const std::string& name);
 
+/// Check that the torsional friction length of soft fingers is plausible: it is smaller than their
+/// contact patches.
+/// @param name  option or field that defines the length, for the message.
+/// @throws InputError  if it is larger than the object's diameter.
+void CheckTorsion(const object::Object& object, double torsion, const std::string& name);
+
 /// Return the centre of the finger's sphere at a contact.
 [[nodiscard]] Eigen::Vector3d BallCentre(const grasp::Contact& contact, double radius);
 

@@ -62,7 +62,7 @@ std::vector<SampledTip> SampleTips(const kinematics::Finger& finger, RandomStrea
 std::optional<FailureCause> TooHeavy(const SearchEvidence& evidence) {
   if (!evidence.force || evidence.force->available >= evidence.force->required) return {};
   return FailureCause{"too-heavy",
-                      "the failed grasp requires a force of " + Newtons(evidence.force->required) +
+                      "a failed grasp requires a force of " + Newtons(evidence.force->required) +
                           " to support a weight of " + Newtons(evidence.force->weight) +
                           ", the actuators exert " + Newtons(evidence.force->available)};
 }
@@ -211,17 +211,22 @@ std::optional<FailureCause> RollOff(const SearchEvidence& evidence) {
 }
 
 std::string SearchedText(const SearchEvidence& evidence) {
-  return std::to_string(evidence.counts.expanded) + " stances expanded from " +
-         std::to_string(evidence.searches) + " initial poses, " +
+  return "in all searches " + CountText(evidence.counts.expanded, "stance") + " expanded from " +
+         CountText(evidence.searches, "initial pose") + ", " +
          FormatShort(100 * evidence.farthest, 3) + " % of the path reached";
 }
 
 }  // namespace
 
-void SearchEvidence::Add(const std::vector<GaitCounts>& of_poses) {
+std::string CountText(std::int64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void SearchEvidence::Add(const std::vector<GaitCounts>& of_poses, bool counts_reach) {
   searches += static_cast<int>(of_poses.size());
   for (const GaitCounts& one : of_poses) {
     counts.Add(one);
+    if (!counts_reach) continue;
     farthest =
         std::max(farthest, one.steps == 0 ? 1.0 : static_cast<double>(one.farthest) / one.steps);
   }

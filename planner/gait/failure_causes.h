@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 
 namespace regrasp::gait {
 
+/// Return a count with its noun: "1 grasp", "2 grasps".
+[[nodiscard]] std::string CountText(std::int64_t count, const std::string& noun);
+
 /// Counts of all searches of a request that found no gait.
 struct SearchEvidence {
   std::vector<PoseTrack> tracks = {};  ///< tracks from the initial poses of the first search
@@ -18,11 +22,13 @@ struct SearchEvidence {
   GaitCounts counts = {};              ///< sums over all searches
   double farthest = 0;                 ///< largest fraction of a track that was reached, in [0, 1]
   int unrolled = 0;                    ///< number of found gaits whose contacts cannot roll
-  /// Grasp force of the failed step of the best candidate.
+  /// Grasp force of the failed step of the best candidate; without one, of some initial grasp.
   std::optional<planning::GraspForceNeed> force = {};
 
   /// Add the counts of a search from several initial poses.
-  void Add(const std::vector<GaitCounts>& of_poses);
+  /// @param counts_reach  whether `farthest` includes it. Searches without simulation reach farther
+  ///     than those with simulation.
+  void Add(const std::vector<GaitCounts>& of_poses, bool counts_reach = true);
 };
 
 /// Likely cause of a failed search.

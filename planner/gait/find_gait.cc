@@ -1,12 +1,15 @@
 #include "planner/gait/find_gait.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "planner/base/error.h"
 #include "planner/base/number.h"
@@ -84,10 +87,11 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
     if (!request.goal_grasp.empty()) text += ", held by the goal grasp at the end";
     return text;
   }
-  const GaitCounts& best = *std::ranges::max_element(counts, {}, &GaitCounts::farthest);
+  const GaitCounts& best = *std::ranges::max_element(
+      counts, {}, [](const GaitCounts& one) { return std::pair(one.farthest, one.evaluated); });
   std::string text = ProgressText(request, best) + "; the best of " +
-                     std::to_string(counts.size()) + " initial poses has " +
-                     std::to_string(best.evaluated) + " grasps";
+                     CountText(std::ssize(counts), "initial pose") + " has " +
+                     CountText(best.evaluated, "grasp");
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
@@ -301,6 +305,29 @@ FoundGait Planned(const HandSetup& setup, const GaitRequest& request,
                             std::string(plan::ReasonName(planned.reason)) + ")"};
 }
 
+/// Bounds of the search of an initial grasp whose force is measured: rotation, stances, seconds.
+constexpr double kMeasuredTurn = 0.05;
+constexpr std::int64_t kMeasuredExpanded = 40;
+constexpr std::chrono::seconds kMeasuredTime{1};
+
+/// Return the force that an initial grasp needs, if every grasp fails in simulation.
+/// The grasp is the first one of a small rotation without simulation.
+std::optional<planning::GraspForceNeed> ForceOfInitialGrasp(
+    const GaitRequest& request, const std::vector<grasp::Contact>& contacts, const GaitEnds& ends,
+    const FindOne& find) {
+  if (!request.simulate || !request.measure_force || !ends.goal.empty()) return std::nullopt;
+  GaitRequest asked = request;
+  asked.simulate = nullptr;
+  asked.robustness = RobustnessLevel::kNone;
+  asked.goal.reset();
+  asked.turn.angle = std::clamp(asked.turn.angle, -kMeasuredTurn, kMeasuredTurn);
+  asked.most_expanded = kMeasuredExpanded;
+  asked.deadline = request.deadline.In(kMeasuredTime);
+  const FoundGait found = find(asked, {});
+  if (!found.gait) return std::nullopt;
+  return request.measure_force(PlanOf(*found.gait, asked, contacts), 0);
+}
+
 /// Describe the given grasp that cannot be robust in any gait; empty if there is none.
 /// @param quality  grasp quality that a robust gait requires.
 std::string NonRobustEnd(const GaitEnds& ends, criteria::GraspMemory& memory, double quality) {
@@ -372,7 +399,7 @@ GaitResult FindGait(const GaitRequest& request) {
       const std::optional<Gait> gait = search.Search();
       if (!gait) {
         const std::scoped_lock lock(adding);
-        evidence.Add(search.counts());
+        evidence.Add(search.counts(), asked.simulate || !request.simulate);
         if (evidence.tracks.empty()) evidence.tracks = search.drawn_tracks();
         return {std::nullopt, FailureSummary(asked, search.counts()), search.reached()};
       }
@@ -398,9 +425,11 @@ GaitResult FindGait(const GaitRequest& request) {
   result.message = std::move(simulated.found.message);
   result.execution = std::move(simulated.execution);
   if (!result.gait && request.names_causes) {
-    if (result.execution) evidence.force = result.execution->force;
+    SearchEvidence searched = evidence;  // the search of an initial grasp adds to it
+    searched.force = result.execution ? result.execution->force
+                                      : ForceOfInitialGrasp(request, result.contacts, ends, find);
     const SearchConfig config(request, nullptr, relative_width, surface, inverse, points, fingers);
-    const std::string causes = CausesText(LikelyCauses(config.setup, request, evidence));
+    const std::string causes = CausesText(LikelyCauses(config.setup, request, searched));
     if (!causes.empty()) result.message += "; " + causes;
   }
   return result;

@@ -338,7 +338,7 @@ class Canvas::Impl {
   void Init() {
     const OffscreenContext::Use use(context_);
     InitState();
-    buffers_.assign(meshes_->begin(), meshes_->end());
+    buffers_ = std::vector<MeshBuffers>(meshes_->begin(), meshes_->end());
   }
 
   void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Color paper,

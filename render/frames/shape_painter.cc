@@ -125,9 +125,7 @@ void VertexArrays::Draw() const {
 
 MeshBuffers::MeshBuffers(const VertexArrays& arrays)
     : corners_(static_cast<int>(arrays.corners_.size())) {
-  const auto size_of = [](const auto& values) {
-    return values.size() * sizeof(*values.data());
-  };
+  const auto size_of = [](const auto& values) { return values.size() * sizeof(*values.data()); };
   std::vector<unsigned char> vertices(size_of(arrays.points_) + size_of(arrays.normals_) +
                                       size_of(arrays.colors_));
   std::size_t at = 0;

@@ -28,6 +28,12 @@ std::string FingerLabel(FingerIndex finger, std::span<const std::string> names) 
   return named ? names[index] : std::to_string(finger);
 }
 
+std::string AngleText(double radians) {
+  const double tenths = std::round(10 * Degrees(radians));
+  const bool whole = std::fmod(tenths, 10) == 0;
+  return FormatFixed(tenths == 0 ? 0 : tenths / 10, whole ? 0 : 1) + "°";
+}
+
 namespace {
 
 /// Smallest rotation (radians) and translation (metres) that are reported. Smaller ones are
@@ -107,7 +113,7 @@ std::string Describe(const plan::Move& step, Names /*names*/) {
   const double angle = object::RotationInBody(from.linear(), to.linear()).angle();
   const std::string roll = step.contacts.empty() ? "" : ", fingertips roll";
   if (angle >= kMinRotation) {
-    return "move: rotate the object by " + FormatDegrees(Degrees(angle)) + roll;
+    return "move: rotate the object by " + AngleText(angle) + roll;
   }
   const double translation = (to.translation() - from.translation()).norm();
   return translation < kMinTranslation
@@ -167,6 +173,9 @@ constexpr double kDistanceCost = 0.35;  ///< cost per label radius of distance
 constexpr double kAngleCost = 0.4;      ///< cost of the side opposite to the preferred one
 constexpr double kOverlapCost = 6;      ///< cost of covering an obstacle by one label radius
 constexpr double kOutsideCost = 100;
+/// Least distance of a label's centre from the border, in label radii. Names are wider than the
+/// circle of a label.
+constexpr double kInsideMargin = 1.25;
 constexpr double kWrongOwnerCost = 200;
 /// Largest ratio of the distances to the own and to another owner that is free of cost.
 constexpr double kClearlyNearer = 0.9;
@@ -205,8 +214,9 @@ struct Layout {
       if (share >= 1) cost += kWrongOwnerCost;
       if (share > kClearlyNearer) cost += kUnclearOwnerCost;
     }
-    const bool inside = centre.x() >= radius && centre.x() <= width - radius &&
-                        centre.y() >= radius && centre.y() <= height - radius;
+    const double margin = kInsideMargin * radius;
+    const bool inside = centre.x() >= margin && centre.x() <= width - margin &&
+                        centre.y() >= margin && centre.y() <= height - margin;
     return inside ? cost : cost + kOutsideCost;
   }
 

@@ -11,6 +11,9 @@
 
 namespace regrasp::render {
 
+/// Return an angle to a tenth of a degree, "36.7°", without decimals if they are zero.
+[[nodiscard]] std::string AngleText(double radians);
+
 /// Return the longest length of the form 1, 2 or 5 times a power of ten up to `limit` (> 0).
 [[nodiscard]] double RoundLength(double limit);
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "planner/base/number.h"
+#include "render/picture/caption.h"
 
 namespace regrasp::report {
 
@@ -20,13 +21,6 @@ constexpr int kProgressDigits = 2;
 Vector3d RotationVector(const Isometry3d& from, const Isometry3d& to) {
   const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
   return turn.angle() * turn.axis();
-}
-
-/// Return an angle to a tenth of a degree, "36.7°", without decimals if they are zero.
-std::string AngleText(double radians) {
-  const double tenths = std::round(10 * Degrees(radians));
-  const bool whole = std::fmod(tenths, 10) == 0;
-  return FormatFixed(tenths == 0 ? 0 : tenths / 10, whole ? 0 : 1) + "°";
 }
 
 }  // namespace
@@ -59,7 +53,7 @@ void ObjectProgress::Follow(const Isometry3d& X_WO) {
 }
 
 std::string ObjectProgress::Text() const {
-  if (goal_angle_) return AngleText(angle_) + " of " + AngleText(*goal_angle_);
+  if (goal_angle_) return render::AngleText(angle_) + " of " + render::AngleText(*goal_angle_);
   if (goal_distance_m_ < kLeastDistance_m) return "";
   const double distance_m = (last_.translation() - first_.translation()).norm();
   return FormatLength(distance_m, kProgressDigits) + " of " +

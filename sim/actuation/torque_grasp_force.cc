@@ -13,6 +13,8 @@ namespace {
 
 /// Number of bisections between a grasp force that is too large and one that is not.
 constexpr int kHalvings = 10;
+/// The same for the force that is available for an object of any weight.
+constexpr int kHalvingsOfHeavy = 50;
 /// Largest measured grasp force, weights.
 constexpr double kMostMeasured = 20;
 
@@ -107,13 +109,13 @@ class HeldGrasp {
 };
 
 /// Return the largest force up to `most` at which a condition holds that fails from some force on.
-/// The result is at most 1/1000 of `most` too large.
+/// The result is at most `most` / 2^halvings too large.
 template <typename Holds>
-double LargestForce(double most, const Holds& holds) {
+double LargestForce(double most, const Holds& holds, int halvings = kHalvings) {
   if (holds(most)) return most;
   double low = 0;
   double high = most;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < halvings; ++i) {
     const double middle = (low + high) / 2;
     (holds(middle) ? low : high) = middle;
   }
@@ -157,7 +159,8 @@ std::optional<planning::GraspForceNeed> ComputeGraspForceNeed(
       .weight = weight,
       .required = LargestForce(most, [&](double grasp_force) { return !supports(grasp_force); }),
       .available = LargestForce(
-          most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; })};
+          most, [&](double grasp_force) { return held.LoadAt(grasp_force) <= kTorqueShare; },
+          kHalvingsOfHeavy)};
 }
 
 std::vector<double> ComputeGraspForcesOfPlan(HandEngine& world, const object::Polyhedron& solid,

@@ -105,10 +105,11 @@ ConvexBody MakeConvexBody(std::vector<Vector3d> points, double radius) {
     solid.box.extend(point);
   }
   solid.centre /= static_cast<double>(solid.points.size());
+  double square = 0;
   for (const Vector3d& point : solid.points) {
-    solid.reach = std::max(solid.reach, (point - solid.centre).norm());
+    square = std::max(square, (point - solid.centre).squaredNorm());
   }
-  solid.reach += radius;
+  solid.reach = std::sqrt(square) + radius;
   return solid;
 }
 

@@ -71,21 +71,29 @@ static_assert(kDampingStep <= 0.6);
 void CheckRange(const char* what, double value, double least, double largest, const char* unit,
                 const char* look_at = "--scale and --mass") {
   if (value >= least && value <= largest) return;
-  throw InputError("replay: " + std::string(what) + " of the object: expected " +
-                   FormatShort(least) + " to " + FormatShort(largest) + " " + unit + ", found " +
-                   FormatShort(value) + " " + unit + "; help: check " + look_at);
+  throw InputError(std::string(what) + ": expected " + FormatShort(least) + " to " +
+                   FormatShort(largest) + " " + unit + ", found " + FormatShort(value) + " " +
+                   unit + "; help: check " + look_at);
 }
+
+}  // namespace
+
+void CheckDiameter(double diameter_m) {
+  CheckRange("diameter of the object", diameter_m, kLeastDiameter, kLargestDiameter, "m");
+}
+
+namespace {
 
 void CheckBody(const object::Object& object, const ReplayOptions& options,
                const object::BodyMeasures& body) {
-  CheckRange("diameter", body.diameter_m, kLeastDiameter, kLargestDiameter, "m");
+  CheckDiameter(body.diameter_m);
   if (object.dimension() == 2) {
-    CheckRange("thickness", body.thickness_m / body.diameter_m, kLeastThickness, kLargestThickness,
-               "diameters", "--thickness");
+    CheckRange("thickness of the object", body.thickness_m / body.diameter_m, kLeastThickness,
+               kLargestThickness, "diameters", "--thickness");
   } else if (options.thickness) {
     throw InputError("--thickness: cannot be used with a solid");
   }
-  CheckRange("mass", body.mass_kg, kLeastMass, kLargestMass, "kg");
+  CheckRange("mass of the object", body.mass_kg, kLeastMass, kLargestMass, "kg");
 }
 
 /// Return the smallest radius of gyration over all axes, in the object's unit.
@@ -146,7 +154,8 @@ ReplaySettings DeriveSettings(const object::Object& object, double scale, double
     s.grasp_force_source =
         options.hand_grasp_force ? GraspForceSource::kHand : GraspForceSource::kGiven;
   }
-  CheckRange("squeeze", s.grasp_force_N, kLeastGraspForce, kLargestGraspForce, "N");
+  CheckRange("grasp force", s.grasp_force_N, kLeastGraspForce, kLargestGraspForce, "N",
+             options.grasp_force_N ? "--grasp-force" : "--disturbance, --scale and --mass");
   s.characteristic_time_s = std::sqrt(s.mass_kg * s.diameter_m / s.grasp_force_N);
   const double steps = 2 / kDampingStep;
   const double gyration = LeastGyration(object) * scale;

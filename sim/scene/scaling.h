@@ -32,6 +32,11 @@ inline constexpr double kStrongestGrip_N = 200;
 /// Use the mass of a plan for a hand, unless the options state mass or density.
 void UseMassOf(const plan::Plan& plan, ReplayConditions& options);
 
+/// Check that an object is neither smaller than a molecule nor larger than a planet, which
+/// indicates a wrong unit of length.
+/// @throws InputError  otherwise.
+void CheckDiameter(double diameter_m);
+
 /// Return the size and mass of the object for the options.
 [[nodiscard]] object::BodyMeasures BodyOf(const object::Object& object, double scale,
                                           const ReplayConditions& options);

@@ -221,10 +221,11 @@ ValidationSettings ResolveSettings(const ValidationRequest& request) {
     static_cast<sim::ReplayConditions&>(*settings.hand) = settings.replay;
     settings.hand->engine = options.replay.engine;
   } else if (plan::HasRolling(plan)) {
-    throw InputError(
-        "plan: fingertips roll in its in-hand motions, which only a hand executes; "
-        "help: pass --hand " +
-        plan.hand->file + ", without --replay points");
+    throw InputError(request.plan_name +
+                     ": fingertips roll in its in-hand motions, which only a hand executes; "
+                     "help: pass --hand " +
+                     plan.hand->file +
+                     (request.hand == nullptr ? "" : ", without --replay points"));
   }
   return settings;
 }

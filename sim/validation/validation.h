@@ -49,6 +49,7 @@ struct ValidationRequest {
   const grasp::Grasp* goal = nullptr;          ///< required goal; null: any
   const std::vector<Eigen::Vector3d>* given_points = nullptr;  ///< plan::CheckOptions::given_points
   ValidationOptions options = {};
+  std::string plan_name = "plan";  ///< name in messages
 };
 
 /// Callbacks during a validation; all may be empty.

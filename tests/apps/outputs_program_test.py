@@ -149,6 +149,33 @@ class Outputs(ProgramCase):
 
     # Unwritable outputs are detected first.
 
+    def test_an_empty_value_as_of_an_undefined_variable_is_refused(self):
+        self.assert_refused(2, "--output: must not be empty, expected FILE", *self.plan_arguments(""))
+        self.assert_refused(2, "--output: must not be empty", *self.plan_arguments("plan.json"), "--output=")
+        self.assert_refused(2, "--json: must not be empty", *self.graph_arguments(""), program="graph")
+        self.assert_done(*self.plan_arguments("plan.json"))
+        for option in ("--json", "--junit", "--output"):
+            self.assert_refused(2, option + ": must not be empty", "--object", self.model("square.wkt"), "--plan",
+                                "plan.json", option, "", program="validate")
+        self.assertEqual(os.listdir(self.folder), ["plan.json"])
+
+    def test_values_of_any_length_are_refused_in_a_line_of_bounded_length(self):
+        done = self.assert_refused(2, "no such file", *self.plan_arguments("p.json", start="a" * 300))
+        self.assertNotIn("internal", done.stderr)
+        done = self.assert_refused(2, "--friction-angle", *self.plan_arguments("p.json", **{"friction-angle": "9" * 100000}))
+        self.assertLess(len(done.stderr), 7000)
+
+    def test_numbers_out_of_any_range_are_refused(self):
+        self.assert_refused(2, "diameter of the object: expected 1e-09 to 1e+07 m",
+                            *self.plan_arguments("p.json", scale="1e300"))
+        cube = ["--object", self.model("cube.obj"), "--start", self.model("cube.start.json"), "--goal",
+                self.model("cube.goal.json"), "--friction-angle", "20", "--output", "p.json"]
+        self.assert_refused(2, "--torsion: must be at most the object's diameter", *cube, "--torsion", "1e300")
+        self.assert_done(*cube)
+        self.assert_refused(2, "grasp force: expected 1e-30 to 1e+36 N, found 1e+300 N; help: check --grasp-force",
+                            "--object", self.model("cube.obj"), "--plan", "p.json", "--frames", "none",
+                            "--grasp-force", "1e300", program="validate")
+
     def test_what_cannot_be_written_is_found_before_anything_is_read(self):
         self.make_inputs()
         self.write("taken", "")

@@ -10,7 +10,8 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv[1])
 # Sentinels, texts, the layout of seeds and the measurements of failure causes are no parameters of the method.
-NO_PARAMETERS = {"kContained", "kFewestGrasps", "kGripSamples", "kMostlyColliding", "kMostlyLost", "kNone", "kNoNode", "kRating",
+NO_PARAMETERS = {"kContained", "kFewestGrasps", "kGripSamples", "kMostlyColliding", "kMostlyLost",
+                 "kMeasuredExpanded", "kMeasuredTurn", "kNone", "kNoNode", "kRating",
                  "kReachSteps", "kRollingShift", "kSimulating", "kStreamShift"}
 
 

@@ -182,9 +182,9 @@ TEST(Failure, OfAHandIsHeldAgainstTheLimitsOfTheCheckOrOfTheReplay) {
     std::string check, replay;  ///< part of the rule of each
   };
   for (const Case& expected :
-       {Case{Reason::kCouplingViolated, "to 1 µrad", "within 1° of their coupling"},
+       {Case{Reason::kCouplingViolated, "to 1 µrad", "within 1.00° of their coupling"},
         Case{Reason::kHandCollides, "keep the clearance", "must not touch"},
-        Case{Reason::kJointLimit, "within the limits of the hand's model", "model, to 1°"}}) {
+        Case{Reason::kJointLimit, "within the limits of the hand's model", "model, to 1.00°"}}) {
     Report checked = FailingFor(expected.reason, 5);
     checked.steps[1].check.fault.hand.emplace();
     Report replayed = FailingFor(Reason::kNone, 5);

@@ -87,8 +87,8 @@ GaitRequest ShortSearch() {
 TEST(FailureCausesTest, OfASearchThatEndsEarlyIsItsBudgetAlone) {
   const std::string message = MessageOf(ShortSearch());
   EXPECT_THAT(message,
-              testing::ContainsRegex("; likely cause: search-budget \\([1-9][0-9]* stances "
-                                     "expanded from 1 initial poses, [0-9]"));
+              testing::ContainsRegex("; likely cause: search-budget \\(in all searches [1-9][0-9]* stances "
+                                     "expanded from 1 initial pose, [0-9]"));
   for (const char* other : {"too-heavy", "too-thick", "too-thin", "out-of-reach",
                             "finger-always-required", "contacts-roll-off", "time-limit"}) {
     EXPECT_THAT(message, Not(HasSubstr(other)));
@@ -205,7 +205,7 @@ TEST(FailureCausesTest, NameAnObjectThatIsTooHeavyForTheActuators) {
     return MessageOf(request);
   };
   EXPECT_THAT(message_with(6.1),
-              HasSubstr("likely cause: too-heavy (the failed grasp requires a force of 9.3 N to "
+              HasSubstr("likely cause: too-heavy (a failed grasp requires a force of 9.3 N to "
                         "support a weight of 7.15 N, the actuators exert 6.1 N)"));
   EXPECT_THAT(message_with(9.3), Not(HasSubstr("too-heavy")));
 }

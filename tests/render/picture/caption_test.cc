@@ -57,7 +57,7 @@ std::string CaptionOfMove(double shift, double turn) {
 }
 
 TEST(CaptionTest, StatesTheRotationOrTheTranslationOfTheObject) {
-  EXPECT_EQ(CaptionOfMove(0.005, 0.5), "step 1/1 · move: rotate the object by 28.65°");
+  EXPECT_EQ(CaptionOfMove(0.005, 0.5), "step 1/1 · move: rotate the object by 28.6°");
   EXPECT_EQ(CaptionOfMove(0.005, 0), "step 1/1 · move: translate the object by 5 mm");
   EXPECT_EQ(CaptionOfMove(0.005, 1e-9), "step 1/1 · move: translate the object by 5 mm");
   EXPECT_EQ(CaptionOfMove(1e-9, 1e-9), "step 1/1 · move: free fingers");

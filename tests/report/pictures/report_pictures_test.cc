@@ -35,8 +35,10 @@ std::vector<std::string> NotesOf(const Report& report) {
 
 TEST(ReportPicturesTest, TheOverviewMarksTheStepWithTheSmallestFrictionMargin) {
   using Notes = std::vector<std::string>;
-  EXPECT_EQ(NotesOf(ReportWith({12, 17.5, 15})), Notes({"", "smallest friction margin: 2.5°", ""}));
-  EXPECT_EQ(NotesOf(ReportWith({19, 17.5, 15})), Notes({"smallest friction margin: 1°", "", ""}));
+  EXPECT_EQ(NotesOf(ReportWith({12, 17.5, 15})),
+            Notes({"", "smallest friction margin: 2.50°", ""}));
+  EXPECT_EQ(NotesOf(ReportWith({19, 17.5, 15})),
+            Notes({"smallest friction margin: 1.00°", "", ""}));
 }
 
 TEST(ReportPicturesTest, TheOverviewOfAPlanThatFailsMarksNoMargin) {

@@ -42,11 +42,14 @@ TEST(GapTest, KnownGaps) {
 /// A law of distances, with bounding boxes that change with the orientation.
 TEST(GapTest, RigidMotionsOfBothBodiesKeepTheGap) {
   RandomStream random(2, RandomUse::kGaits);
-  const auto draw = [&random] { return Vector3d(random.Normal(), random.Normal(), random.Normal()); };
+  const auto draw = [&random] {
+    return Vector3d(random.Normal(), random.Normal(), random.Normal());
+  };
   for (int i = 0; i < 50; ++i) {
     const auto hull = [&](const Vector3d& centre) {
       std::vector<Vector3d> points;
-      for (int k = 0; k < 12; ++k) points.push_back(centre + draw().cwiseProduct(Vector3d(1, 1, 8)));
+      for (int k = 0; k < 12; ++k)
+        points.push_back(centre + draw().cwiseProduct(Vector3d(1, 1, 8)));
       return MakeConvexBody(std::move(points), 0.1);
     };
     const ConvexBody a = hull(Vector3d::Zero());
