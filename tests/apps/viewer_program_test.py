@@ -131,7 +131,7 @@ class Viewer(ProgramCase):
         beside = ("(p => [...document.querySelectorAll('.still img, .still .legend')].map("
                   "e => e.getBoundingClientRect()).every((b, i, all) => b.top < all[0].bottom))()")
         self.assertTrue(self.browser.value(beside))
-        legends = "[...document.querySelectorAll('p.note')].filter(p => p.textContent.includes('dashed line')"
+        legends = "[...document.querySelectorAll('p.note')].filter(p => p.textContent.includes('Dashed line')"
         legends += " && p.getClientRects().length).length"
         self.assertEqual(self.browser.value(legends), 1)
         self.browser.resize(1000, 1000)
@@ -361,7 +361,7 @@ class Viewer(ProgramCase):
         self.assertEqual(self.browser.value("getComputedStyle(document.getElementById('viewer')).display"), "none")
 
     def test_pictures_and_animations_are_dimmed_in_the_dark_scheme_only(self):
-        self.validate_cube("--video")
+        self.validate_cube("--video", "film.mp4")
         for selector in (".frames img", ".replay video"):
             dimming = f"getComputedStyle(document.querySelector('{selector}')).filter"
             self.browser.resize(1000, 1000)
