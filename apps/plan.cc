@@ -69,10 +69,7 @@ object::ObjectFile ReadObject(const PlannerOptions& common) {
     return file;
   } catch (const object::MeshError& error) {
     ProgressLine progress(common.quiet);
-    // The hint replaces a general one.
-    const std::string text = error.what();
-    throw InputError(text.substr(0, text.find("; help:")) +
-                     RepairHint(common.object, {progress.reporter(), {}}));
+    throw InputError(error.what() + RepairHint(common.object, {progress.reporter(), {}}));
   }
 }
 

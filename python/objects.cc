@@ -45,8 +45,7 @@ PythonObject ReadFileAsObject(const std::filesystem::path& path, double scale, b
     } catch (const TimeUp&) {
       if (!interrupt.raised()) throw;
     } catch (const object::MeshError& error) {
-      const std::string text = error.what();
-      throw InputError(text.substr(0, text.find("; help:")) + repair::RepairHint(path, reading));
+      throw InputError(error.what() + repair::RepairHint(path, reading));
     }
   }
   interrupt.ThrowIfRaised();

@@ -223,7 +223,7 @@ class Page {
     return Figure({}, DrawStepPlot(plot), "Deviation of the object.",
                   "Discs: deviation of the object from the plan in each step, limits " +
                       LengthText(tolerance.length_m) + " and " +
-                      FormatDegrees(Degrees(tolerance.angle_rad)) +
+                      render::AngleText(tolerance.angle_rad) +
                       ", half of that in a static grasp. Rings: slip of a holding fingertip, "
                       "limit " +
                       LengthText(tolerance.slip_m) + ".");

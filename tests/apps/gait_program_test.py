@@ -990,9 +990,9 @@ class Gait(ProgramCase):
                                     "--output", "plan.json")
             self.assertEqual(done.returncode, 0, (sides, done.stderr))
 
-    def test_effort_is_when_to_give_up(self):
-        for effort, code in (("2", 1), ("8000", 0)):
-            done = self.run_program(*self.arguments("--turn", "x,300", "--planner", "budget=" + effort))
+    def test_the_budget_is_when_to_give_up(self):
+        for budget, code in (("1", 1), ("8000", 0)):
+            done = self.run_program(*self.arguments("--turn", "x,500", "--planner", "budget=" + budget))
             self.assertEqual(done.returncode, code, done.stderr)
 
     def test_explain_says_what_would_do(self):

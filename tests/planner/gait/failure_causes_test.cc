@@ -86,9 +86,9 @@ GaitRequest ShortSearch() {
 /// Negative control of most causes: the hand reaches this cube and holds it with any three fingers.
 TEST(FailureCausesTest, OfASearchThatEndsEarlyIsItsBudgetAlone) {
   const std::string message = MessageOf(ShortSearch());
-  EXPECT_THAT(message,
-              testing::ContainsRegex("; likely cause: search-budget \\(in all searches [1-9][0-9]* stances "
-                                     "expanded from 1 initial pose, [0-9]"));
+  EXPECT_THAT(message, testing::ContainsRegex(
+                           "; likely cause: search-budget \\(in all searches [1-9][0-9]* stances "
+                           "expanded from 1 initial pose, [0-9]"));
   for (const char* other : {"too-heavy", "too-thick", "too-thin", "out-of-reach",
                             "finger-always-required", "contacts-roll-off", "time-limit"}) {
     EXPECT_THAT(message, Not(HasSubstr(other)));
