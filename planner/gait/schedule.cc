@@ -34,8 +34,8 @@ constexpr std::size_t kMaxLengthFactor = 3;
 constexpr std::size_t kMaxExtraSegments = 12;
 
 /// Margins for simulated edges of odd and of even rounds, assigned to initial poses in turn.
-/// Searches without modelled rolling are faster, but fewer of their gaits execute. Allegro finds
-/// more gaits with the first sets, LEAP and Shadow with the second ones.
+/// Searches without modelled rolling are faster, but fewer of their gaits execute. With the second
+/// sets alone, Allegro loses whole turns that the first ones find.
 constexpr RobustnessMargins kNotRolling = {0.05, 0.5e-3};
 constexpr RobustnessMargins kLightRolling = {0.05, 0.5e-3, 0.0};
 constexpr RobustnessMargins kMediumRolling = {0.05, 1e-3, 0.1};

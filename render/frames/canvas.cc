@@ -338,7 +338,6 @@ class Canvas::Impl {
   void Init() {
     const OffscreenContext::Use use(context_);
     InitState();
-    buffers_ = std::vector<MeshBuffers>(meshes_->begin(), meshes_->end());
   }
 
   void DrawBand(const Camera& camera, const Drawing& drawing, const Band& band, Color paper,
@@ -346,7 +345,7 @@ class Canvas::Impl {
     const SampleBand samples = {width_ * factor_, band.top * factor_, band.rows * factor_, factor_};
     gl().Viewport(0, 0, samples.width, samples.rows);
     SetCamera(camera, band);
-    const ShapePainter painter(camera, buffers_);
+    const ShapePainter painter(camera, *meshes_);
     std::vector<std::uint32_t> sums(std::size_t{3} * width_ * band.rows);
     const auto add = [&](const unsigned char* from, int weight) {
       AddSamples(from, samples, {0, 0, samples.width, samples.rows}, weight, sums);
@@ -387,7 +386,6 @@ class Canvas::Impl {
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
-  std::vector<MeshBuffers> buffers_;                  ///< the meshes in the context
   std::vector<unsigned char> samples_, veil_, rims_;  ///< buffers of ComposeSolid
 };
 

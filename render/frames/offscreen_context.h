@@ -1,6 +1,5 @@
 #pragma once
 
-#define GL_GLEXT_PROTOTYPES  // declare the functions of buffers
 #include <GL/osmesa.h>
 
 #include <vector>
@@ -10,8 +9,8 @@ namespace regrasp::render {
 /// OpenGL functions that draw frames, without their prefix.
 // clang-format off
 #define REGRASP_GL_FUNCTIONS(F) \
-  F(BindBuffer) F(BlendFunc) F(BufferData) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(ColorPointer) F(DepthFunc) \
-  F(DepthMask) F(Disable) F(DisableClientState) F(DrawElements) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(GenBuffers) F(LightModelfv) F(Lightfv) \
+  F(BlendFunc) F(Clear) F(ClearColor) F(Color4ub) F(ColorMask) F(ColorMaterial) F(ColorPointer) F(DepthFunc) \
+  F(DepthMask) F(Disable) F(DisableClientState) F(DrawElements) F(Enable) F(EnableClientState) F(Finish) F(Frustum) F(LightModelfv) F(Lightfv) \
   F(LoadIdentity) F(LoadMatrixd) F(MatrixMode) F(MultMatrixd) F(NormalPointer) F(Ortho) F(PopMatrix) \
   F(PushMatrix) F(Scissor) F(VertexPointer) F(Viewport)
 // clang-format on

@@ -5,7 +5,6 @@
 #include <boost/container_hash/hash.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <iterator>
 #include <unordered_map>
 #include <variant>
@@ -26,6 +25,9 @@ constexpr float kAmbient = 0.68F;
 constexpr float kDiffuse = 0.40F;
 /// Direction towards the light, in camera axes.
 constexpr float kLightFrom[4] = {-0.45F, 0.75F, 0.8F, 0};
+
+/// Rounding error of the distance of the eye from a plane, relative to that from the origin.
+constexpr float kEdgeOn = 1e-4F;
 
 /// A vertex: point, normal and colour.
 struct Vertex {
@@ -60,7 +62,7 @@ void SetColor(Color color, double opacity) {
 /// Draws a form in the current colour.
 struct FormPainter {
   const Camera& camera;
-  const std::vector<MeshBuffers>& meshes;
+  const std::vector<VertexArrays>& meshes;
 
   void operator()(const Sphere& sphere) const {
     Once(MakeCapsule(sphere.centre, sphere.centre, sphere.radius));
@@ -78,7 +80,10 @@ struct FormPainter {
   void operator()(const MeshInstance& instance) const {
     gl().PushMatrix();
     gl().MultMatrixd(instance.pose.data());
-    meshes[instance.mesh].Draw();
+    const bool perspective = camera.projection == Projection::kPerspective;
+    Eigen::Vector4d eye;
+    eye << (perspective ? camera.position : Vector3d(camera.axes.col(2))), (perspective ? 1 : 0);
+    meshes[instance.mesh].DrawFacing(instance.pose.inverse() * eye);
     gl().PopMatrix();
   }
 };
@@ -107,63 +112,39 @@ VertexArrays::VertexArrays(const ShadedMesh& mesh, bool shared) {
       if (mesh.colors.empty()) continue;
       colors_.insert(colors_.end(), vertex.color.begin(), vertex.color.end());
     }
+    if (!shared) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    planes_.emplace_back(
+        Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(a)).cast<float>());
   }
 }
 
-void VertexArrays::Draw() const {
-  if (corners_.empty()) return;
+void VertexArrays::DrawFacing(const Eigen::Vector4d& eye) const {
+  // OpenGL culls triangles that are nearly edge-on.
+  const Eigen::Vector4f at = eye.cast<float>();
+  const float least = -kEdgeOn * at.norm();
+  std::vector<unsigned> facing;
+  facing.reserve(corners_.size());
+  for (std::size_t t = 0; t < planes_.size(); ++t) {
+    if (planes_[t].dot(at) < least) continue;
+    facing.insert(facing.end(), corners_.begin() + static_cast<std::ptrdiff_t>(3 * t),
+                  corners_.begin() + static_cast<std::ptrdiff_t>(3 * t + 3));
+  }
+  Draw(facing);
+}
+
+void VertexArrays::Draw(const std::vector<unsigned>& corners) const {
+  if (corners.empty()) return;
   gl().VertexPointer(3, GL_FLOAT, 0, points_.data());
   gl().NormalPointer(GL_FLOAT, 0, normals_.data());
   if (!colors_.empty()) {
     gl().EnableClientState(GL_COLOR_ARRAY);
     gl().ColorPointer(4, GL_UNSIGNED_BYTE, 0, colors_.data());
   }
-  gl().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_.size()), GL_UNSIGNED_INT,
-                    corners_.data());
+  gl().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners.size()), GL_UNSIGNED_INT,
+                    corners.data());
   if (!colors_.empty()) gl().DisableClientState(GL_COLOR_ARRAY);
-}
-
-MeshBuffers::MeshBuffers(const VertexArrays& arrays)
-    : corners_(static_cast<int>(arrays.corners_.size())) {
-  const auto size_of = [](const auto& values) { return values.size() * sizeof(*values.data()); };
-  std::vector<unsigned char> vertices(size_of(arrays.points_) + size_of(arrays.normals_) +
-                                      size_of(arrays.colors_));
-  std::size_t at = 0;
-  const auto append = [&](const auto& values) {
-    if (values.empty()) return;
-    std::memcpy(vertices.data() + at, values.data(), size_of(values));
-    at += size_of(values);
-  };
-  append(arrays.points_);
-  normals_at_ = at;
-  append(arrays.normals_);
-  if (!arrays.colors_.empty()) colors_at_ = at;
-  append(arrays.colors_);
-  gl().GenBuffers(2, buffers_.data());
-  const auto fill = [](GLenum target, unsigned buffer, std::size_t size, const void* from) {
-    gl().BindBuffer(target, buffer);
-    gl().BufferData(target, static_cast<GLsizeiptr>(size), from, GL_STATIC_DRAW);
-    gl().BindBuffer(target, 0);
-  };
-  fill(GL_ARRAY_BUFFER, buffers_[0], vertices.size(), vertices.data());
-  fill(GL_ELEMENT_ARRAY_BUFFER, buffers_[1], size_of(arrays.corners_), arrays.corners_.data());
-}
-
-void MeshBuffers::Draw() const {
-  if (corners_ == 0) return;
-  const unsigned char* const begin = nullptr;  // positions in a buffer are passed as addresses
-  gl().BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
-  gl().BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
-  gl().VertexPointer(3, GL_FLOAT, 0, begin);
-  gl().NormalPointer(GL_FLOAT, 0, begin + normals_at_);
-  if (colors_at_ > 0) {
-    gl().EnableClientState(GL_COLOR_ARRAY);
-    gl().ColorPointer(4, GL_UNSIGNED_BYTE, 0, begin + colors_at_);
-  }
-  gl().DrawElements(GL_TRIANGLES, corners_, GL_UNSIGNED_INT, begin);
-  if (colors_at_ > 0) gl().DisableClientState(GL_COLOR_ARRAY);
-  gl().BindBuffer(GL_ARRAY_BUFFER, 0);
-  gl().BindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
 }
 
 void SetCamera(const Camera& camera, const Band& band) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <Eigen/Core>
 #include <vector>
 
 #include "render/frames/camera.h"
@@ -18,30 +17,21 @@ class VertexArrays {
   ///                set up.
   explicit VertexArrays(const ShadedMesh& mesh, bool shared = true);
   /// Draw the triangles in the current colour, or in their own colours if they have some.
-  void Draw() const;
+  void Draw() const { Draw(corners_); }
+  /// Draw the triangles that face the eye. It is faster than culling by OpenGL, with the same
+  /// image.
+  /// @param eye  homogeneous position of the eye in the frame of the mesh.
+  void DrawFacing(const Eigen::Vector4d& eye) const;
 
  private:
-  friend class MeshBuffers;
+  void Draw(const std::vector<unsigned>& corners) const;
+
+  /// Planes of the triangles of shared corners: a point p is in front if plane · (p, 1) > 0.
+  std::vector<Eigen::Vector4f> planes_;
   std::vector<float> points_;
   std::vector<float> normals_;
   std::vector<unsigned char> colors_;  ///< RGBA per vertex; empty: the current colour
   std::vector<unsigned> corners_;      ///< vertices of the triangles
-};
-
-/// Vertex arrays in the memory of a context, which draws them without copying them again.
-/// The context frees the memory at its end.
-class MeshBuffers {
- public:
-  /// Copy the arrays to the current context.
-  explicit MeshBuffers(const VertexArrays& arrays);
-  /// Same as VertexArrays::Draw.
-  void Draw() const;
-
- private:
-  std::array<unsigned, 2> buffers_ = {};  ///< vertices and corners
-  std::size_t normals_at_ = 0;            ///< position of the normals in the buffer of vertices
-  std::size_t colors_at_ = 0;             ///< the same for colours; 0: the current colour
-  int corners_ = 0;                       ///< number of corners
 };
 
 /// Rows from `top` to `top + rows` of an image with `height` rows.
@@ -61,9 +51,8 @@ void SetMask(bool colors, bool alpha);
 /// Draws shapes into the current context.
 class ShapePainter {
  public:
-  /// @param camera  must outlive this object.
-  /// @param meshes  meshes in the current context; must outlive this object.
-  ShapePainter(const Camera& camera, const std::vector<MeshBuffers>& meshes)
+  /// @param camera, meshes  must outlive this object.
+  ShapePainter(const Camera& camera, const std::vector<VertexArrays>& meshes)
       : camera_(camera), meshes_(meshes) {}
 
   /// Draw a shape. Its opacity is the alpha of its samples.
@@ -78,7 +67,7 @@ class ShapePainter {
 
  private:
   const Camera& camera_;
-  const std::vector<MeshBuffers>& meshes_;
+  const std::vector<VertexArrays>& meshes_;
 };
 
 }  // namespace regrasp::render
