@@ -48,7 +48,7 @@ constexpr double kThinDepthStep = 0.025;
 constexpr double kHiddenDepthStep = 0.25;
 /// Total length of the shortest drawn lines, and size of the smallest areas, in samples.
 constexpr double kShortestOutline = 60;
-constexpr double kShortestCrease = 60;
+constexpr double kShortestCrease = 160;
 constexpr double kShortestHidden = 120;
 constexpr double kSmallestArea = 12;
 /// Tolerance of printed lines, and length of the shortest inner line, points.

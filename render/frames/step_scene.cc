@@ -159,6 +159,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kLeastTurn = Radians(3);
+/// A shorter arc has no room for a shaft behind its head.
+constexpr double kShortestArc = Radians(30);
 constexpr double kStep = Radians(4);
 
 // Lengths in diameters.
@@ -194,9 +196,10 @@ std::vector<Vector3d> RotationArrow(const ShadedMesh& surface, const Isometry3d&
   Vector3d middle = to_eye - to_eye.dot(out) * out;
   middle = middle.norm() < kTurnRadius ? out.unitOrthogonal() : middle.normalized();
   std::vector<Vector3d> arrow;
-  const int steps = std::max(2, static_cast<int>(std::ceil(turn.angle() / kStep)));
+  const double arc = std::max(turn.angle(), kShortestArc);
+  const int steps = static_cast<int>(std::ceil(arc / kStep));
   for (int i = 0; i <= steps; ++i) {
-    const double angle = turn.angle() * (static_cast<double>(i) / steps - 0.5);
+    const double angle = arc * (static_cast<double>(i) / steps - 0.5);
     arrow.emplace_back(centre + kTurnRadius * (AngleAxisd(angle, turn.axis()) * middle));
   }
   return arrow;

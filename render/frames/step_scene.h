@@ -41,7 +41,8 @@ inline constexpr Color kBefore = {112, 120, 138};
 /// Compute an arrow that shows a rotation of the object about its axis, above the end of the object
 /// that faces the eye.
 ///
-/// The arc has the angle of the rotation. Lengths are in normalized units.
+/// The arc has the angle of the rotation, and at least 30° to show its direction. Lengths are in
+/// normalized units.
 /// @param surface        surface of the object, in the object frame.
 /// @param before, after  poses of the object.
 /// @param to_eye         unit vector.

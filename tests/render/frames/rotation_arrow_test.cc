@@ -28,7 +28,7 @@ double AngleBetween(const Vector3d& a, const Vector3d& b) {
 TEST(RotationArrow, HasTheAngleAndTheSenseOfTheRotation) {
   int checked = 0;
   for (const Vector3d& axis : {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(0.6, 0, 0.8)}) {
-    for (const double degrees : {10.0, 60.0, 150.0}) {
+    for (const double degrees : {30.0, 60.0, 150.0}) {
       const std::vector<Vector3d> arrow = ArrowOf(degrees, axis);
       ASSERT_GE(arrow.size(), 2u);
       const auto across = [&](const Vector3d& p) -> Vector3d { return p - p.dot(axis) * axis; };
@@ -50,6 +50,17 @@ TEST(RotationArrow, IsAboveTheObjectOnTheSideOfTheEye) {
   }
   const std::vector<Vector3d> arrow = ArrowOf(40, Vector3d::UnitZ());
   EXPECT_GT(arrow[arrow.size() / 2].dot(kToEye), 0.3);
+}
+
+TEST(RotationArrow, ShowsTheSenseOfASmallRotationByALongerArc) {
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<Vector3d> arrow = ArrowOf(5, sign * Vector3d::UnitZ());
+    ASSERT_GE(arrow.size(), 3u);
+    const Vector3d from = {arrow.front().x(), arrow.front().y(), 0};
+    const Vector3d to = {arrow.back().x(), arrow.back().y(), 0};
+    EXPECT_NEAR(Degrees(AngleBetween(from, to)), 30, 1e-6);
+    EXPECT_GT(sign * from.cross(to).z(), 0);
+  }
 }
 
 TEST(RotationArrow, IsOmittedForSmallRotations) {
