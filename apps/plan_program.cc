@@ -321,7 +321,7 @@ void PlanProgram::Finish(const CLI::App& app) {
   }
   for (const char* name :
        {"--turn", "--start-pose", "--goal-pose", "--goal-facing", "--goal-tolerance", "--clearance",
-        "--goals", "--gravity", "--closure", "--rolling", "--continue", "--robustness"}) {
+        "--goals", "--gravity", "--mass", "--closure", "--rolling", "--continue", "--robustness"}) {
     if (app.count(name) > 0 && !hand.given())
       throw InputError(std::string(name) + " requires --hand");
   }

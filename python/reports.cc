@@ -313,10 +313,10 @@ void BindReports(py::module_& module) {
         of.hand.tolerance.angle_rad = Radians(angle_deg);
       });
   add("mass_kg", &ValidationOptions::replay, &sim::ReplayOptions::mass_kg);
-  add("squeeze_N", &ValidationOptions::replay, &sim::ReplayOptions::grasp_force_N);
-  add("shake", &ValidationOptions::replay, &sim::ReplayOptions::disturbance_ratio);
+  add("grasp_force_N", &ValidationOptions::replay, &sim::ReplayOptions::grasp_force_N);
+  add("disturbance", &ValidationOptions::replay, &sim::ReplayOptions::disturbance_ratio);
   add("tolerance", &ValidationOptions::replay, &sim::ReplayOptions::tolerance);
-  add("stress", &ValidationOptions::replay, &sim::ReplayOptions::resisted_wrench);
+  add("resisted_wrench", &ValidationOptions::replay, &sim::ReplayOptions::resisted_wrench);
   py::class_<PythonReport>(module, "Report")
       .def_property_readonly(
           "json", [](const PythonReport& of) { return report::FormatReportJson(of.report); })

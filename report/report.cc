@@ -121,6 +121,12 @@ std::string LimitsText(const std::vector<sim::DriveLimits>& limits) {
          CountedText(std::ssize(limits), "joint range");
 }
 
+std::string StabilityText(const Report& report) {
+  const bool is_supported = std::ranges::any_of(
+      report.steps, [](const ReportStep& step) { return step.check.is_supported; });
+  return is_supported ? "force closure or supported by gravity" : "force closure";
+}
+
 std::vector<std::string> Warnings(const Report& report) {
   std::vector<std::string> warnings;
   for (const ReportStep& step : report.steps) {

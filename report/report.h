@@ -37,6 +37,10 @@ using validation::Verdict;
 /// - the assumptions of a replay by a hand
 [[nodiscard]] std::vector<std::string> Warnings(const Report& report);
 
+/// Return the property of every grasp of a report that passes: "force closure", with "or supported
+/// by gravity" if this holds for some grasps.
+[[nodiscard]] std::string StabilityText(const Report& report);
+
 /// Format report.json.
 /// In addition to the members that docs/format_report.md defines, each step has a readable `detail`
 /// and `undecided`, and a sliding step its mode. Bytes of file names that are not UTF-8 are

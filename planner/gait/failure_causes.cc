@@ -227,8 +227,7 @@ void SearchEvidence::Add(const std::vector<GaitCounts>& of_poses, bool counts_re
   for (const GaitCounts& one : of_poses) {
     counts.Add(one);
     if (!counts_reach) continue;
-    farthest =
-        std::max(farthest, one.steps == 0 ? 1.0 : static_cast<double>(one.farthest) / one.steps);
+    farthest = std::max(farthest, one.fraction());
   }
 }
 

@@ -17,11 +17,13 @@ namespace regrasp::gait {
 
 /// Counts of all searches of a request that found no gait.
 struct SearchEvidence {
-  std::vector<PoseTrack> tracks = {};  ///< tracks from the initial poses of the first search
-  int searches = 0;                    ///< number of searched initial poses
-  GaitCounts counts = {};              ///< sums over all searches
-  double farthest = 0;                 ///< largest fraction of a track that was reached, in [0, 1]
-  int unrolled = 0;                    ///< number of found gaits whose contacts cannot roll
+  /// Tracks from the initial poses of the search with the smallest seed, and that seed.
+  std::vector<PoseTrack> tracks = {};
+  std::optional<std::uint64_t> tracks_seed = {};
+  int searches = 0;        ///< number of searched initial poses
+  GaitCounts counts = {};  ///< sums over all searches
+  double farthest = 0;     ///< largest fraction of a track that was reached, in [0, 1]
+  int unrolled = 0;        ///< number of found gaits whose contacts cannot roll
   /// Grasp force of the failed step of the best candidate; without one, of some initial grasp.
   std::optional<planning::GraspForceNeed> force = {};
 

@@ -48,8 +48,7 @@ std::vector<grasp::Contact> DrawContacts(const GaitRequest& request) {
 }
 
 std::string ProgressText(const GaitRequest& request, const GaitCounts& counts) {
-  const double fraction =
-      counts.steps == 0 ? 1 : static_cast<double>(counts.farthest) / counts.steps;
+  const double fraction = counts.fraction();
   if (fraction == 1 && !request.goal_grasp.empty()) return "the goal grasp is not reached";
   if (fraction == 1 && request.goal && request.goal->facing() != nullptr && counts.at_goal == 0) {
     return "the object gets close to its goal, but no stable grasp is found there";
@@ -80,6 +79,7 @@ std::string FailuresText(const FailureCounts& failures) {
 /// Describe why no search succeeded, with the counts of the search that moved the object farthest.
 std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCounts>& counts) {
   if (counts.empty()) {
+    if (request.deadline.IsOver()) return "no initial pose was searched";
     std::string text =
         "no initial pose found: the object must be within reach of the fingers and clear of the "
         "palm";
@@ -88,7 +88,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
     return text;
   }
   const GaitCounts& best = *std::ranges::max_element(
-      counts, {}, [](const GaitCounts& one) { return std::pair(one.farthest, one.evaluated); });
+      counts, {}, [](const GaitCounts& one) { return std::pair(one.fraction(), one.evaluated); });
   std::string text = ProgressText(request, best) + "; the best of " +
                      CountText(std::ssize(counts), "initial pose") + " has " +
                      CountText(best.evaluated, "grasp");
@@ -400,7 +400,10 @@ GaitResult FindGait(const GaitRequest& request) {
       if (!gait) {
         const std::scoped_lock lock(adding);
         evidence.Add(search.counts(), asked.simulate || !request.simulate);
-        if (evidence.tracks.empty()) evidence.tracks = search.drawn_tracks();
+        if (!evidence.tracks_seed || asked.seed < *evidence.tracks_seed) {
+          evidence.tracks = search.drawn_tracks();
+          evidence.tracks_seed = asked.seed;
+        }
         return {std::nullopt, FailureSummary(asked, search.counts()), search.reached()};
       }
       found = Planned(configs.front()->setup, asked, rolled_on, *gait);

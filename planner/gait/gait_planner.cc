@@ -139,7 +139,7 @@ GoalListResult FindPlanUnderGravity(const GaitRequest& request) {
 
 /// Let gravity act in another direction: on the hand, and on goals that point up or down.
 /// @param hand  becomes the hand of the request.
-void TurnGravity(const Eigen::Vector3d& up, kinematics::HandModel& hand, GaitRequest& request) {
+void TurnGravity(Eigen::Vector3d up, kinematics::HandModel& hand, GaitRequest& request) {
   hand = *request.hand;
   kinematics::SetUp(up, hand);
   request.hand = &hand;

@@ -112,6 +112,10 @@ struct GaitCounts {
   int farthest = 0;
   int steps = 0;  ///< number of track steps
 
+  /// Return the fraction of the track that was reached, in [0, 1].
+  [[nodiscard]] double fraction() const {
+    return steps == 0 ? 1 : static_cast<double>(farthest) / steps;
+  }
   /// Count the fingers of one evaluated stance.
   void CountHolding(const ContactAssignment& assignment);
   /// Add the counts of a search from the other end; `farthest` and `steps` keep their values.

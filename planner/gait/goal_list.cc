@@ -151,6 +151,7 @@ class GoalListSearch {
       return std::nullopt;
     }
     const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    reached_ = std::max(reached_, goal + 1);
     Prefix end{Joined(before.plan, plan, request_.goals[goal]), found.execution};
     if (!end.execution) {
       end.execution = before.execution;
@@ -173,27 +174,32 @@ class GoalListSearch {
 
   /// Record why a goal is not reached; the farthest goal counts.
   void Note(std::size_t goal, const GaitResult& found) {
-    if (!failure_.empty() && goal < failed_goal_) return;
+    if (goal < reached_ || (!failure_.empty() && goal < failed_goal_)) return;
     failed_goal_ = goal;
     failure_ = found.message;
     failed_execution_ = found.execution;
   }
 
   [[nodiscard]] std::string FailureText() const {
-    if (request_.goals.size() == 1) return failure_;
-    std::string text = "goal " + std::to_string(failed_goal_ + 1) + " of " +
-                       std::to_string(request_.goals.size()) + " (" +
-                       request_.goals[failed_goal_].name + ") is not reached";
-    if (failed_goal_ > 0) {
+    // Without a failed search for the first unreached goal there was no time for one.
+    const bool was_searched = !failure_.empty() && failed_goal_ >= reached_;
+    const std::string reason = was_searched ? failure_ : "no initial pose was searched";
+    if (request_.goals.size() == 1) return reason;
+    const std::size_t goal = std::max(failed_goal_, reached_);
+    std::string text = "goal " + std::to_string(goal + 1) + " of " +
+                       std::to_string(request_.goals.size()) + " (" + request_.goals[goal].name +
+                       ") is not reached";
+    if (goal > 0) {
       text += " from " + std::to_string(searches_) + " searches over end states of earlier goals";
     }
-    return text + ": " + failure_;
+    return text + ": " + reason;
   }
 
   const GaitRequest& request_;
   Prefix found_;
   std::size_t searches_ = 0;
   bool was_cut_short_ = false;  ///< the last search failed at its time limit
+  std::size_t reached_ = 0;     ///< number of goals that some plan reaches
   std::size_t failed_goal_ = 0;
   std::string failure_;
   std::optional<planning::ExecutionResult> failed_execution_;

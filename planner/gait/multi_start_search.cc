@@ -43,11 +43,11 @@ std::optional<Gait> MultiStartSearch::Search() {
         before + std::min(kExpandedPerRun, request_.most_expanded - expanded_), request_.deadline);
     if (gait) return MergeMoves(start->terms.setup, *gait);
     expanded_ += start->search->counts().expanded - before;
-    if (const int farthest = start->search->counts().farthest; farthest > farthest_) {
-      farthest_ = farthest;
-      expanded_at_farthest_ = expanded_;
+    if (const double fraction = start->search->counts().fraction(); fraction > reached_) {
+      reached_ = fraction;
+      expanded_at_reached_ = expanded_;
     }
-    if (expanded_ - expanded_at_farthest_ >= request_.patience) return std::nullopt;
+    if (expanded_ - expanded_at_reached_ >= request_.patience) return std::nullopt;
     request_.progress("searching a gait: " + std::to_string(expanded_) + " stances expanded from " +
                       std::to_string(starts_.size()) + " initial poses");
   }
@@ -58,12 +58,6 @@ std::vector<GaitCounts> MultiStartSearch::counts() const {
   std::vector<GaitCounts> counts;
   for (const auto& start : starts_) counts.push_back(start->search->counts());
   return counts;
-}
-
-double MultiStartSearch::reached() const {
-  if (starts_.empty()) return 0;
-  const int steps = starts_.front()->search->counts().steps;
-  return steps == 0 ? 1 : static_cast<double>(farthest_) / steps;
 }
 
 std::int64_t MultiStartSearch::BudgetForNextStart() const {

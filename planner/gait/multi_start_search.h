@@ -41,7 +41,7 @@ class MultiStartSearch {
   /// Return the counts of each initial pose.
   [[nodiscard]] std::vector<GaitCounts> counts() const;
   /// Return the fraction of the track that was reached; 0 without an initial pose.
-  [[nodiscard]] double reached() const;
+  [[nodiscard]] double reached() const { return reached_; }
   /// Return the tracks from all initial poses that were drawn.
   [[nodiscard]] const std::vector<PoseTrack>& drawn_tracks() const { return drawn_tracks_; }
 
@@ -76,9 +76,9 @@ class MultiStartSearch {
   int drawings_ = 0;
   std::size_t opened_ = 0;  ///< number of used poses
   std::vector<std::unique_ptr<Start>> starts_;
-  std::int64_t expanded_ = 0;              ///< number of expansions over all searches
-  int farthest_ = 0;                       ///< farthest track step of all searches
-  std::int64_t expanded_at_farthest_ = 0;  ///< number of expansions when it was reached
+  std::int64_t expanded_ = 0;             ///< number of expansions over all searches
+  double reached_ = 0;                    ///< largest reached fraction of a track
+  std::int64_t expanded_at_reached_ = 0;  ///< number of expansions when it was reached
 };
 
 }  // namespace regrasp::gait

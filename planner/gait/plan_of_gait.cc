@@ -161,20 +161,22 @@ plan::Plan PlanOf(const Gait& gait, const GaitRequest& request,
         break;
       case PlanSegment::Kind::kPlace: {
         const plan::FingerContact placed{segment.finger, contacts[segment.contact]};
+        const plan::HandPath path = PathOf(segment, hand);
         plan.steps.emplace_back(
-            plan::Switch{{placed}, {}, plan::SwitchMotion{PathOf(segment, hand), {}}});
+            plan::Switch{{placed}, {}, plan::SwitchMotion{path, {path.back()}}});
         break;
       }
       case PlanSegment::Kind::kSlide:
         plan.steps.emplace_back(SlideOf(segment, GraspAtEnd(plan), hand));
         break;
       case PlanSegment::Kind::kRelease: {
+        plan::HandPath path = PathOf(segment, hand);
         if (!BelongTogether(gait.segments, i)) {
-          plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{}, {}}});
+          plan.steps.emplace_back(plan::Switch{{}, {}, plan::SwitchMotion{{path.front()}, {}}});
         }
         auto& last = std::get<plan::Switch>(plan.steps.back());
         last.release.push_back(segment.finger);
-        last.motion->release = PathOf(segment, hand);
+        last.motion->release = std::move(path);
         break;
       }
     }

@@ -115,7 +115,7 @@ def validate_grasps(object: Object, hand: Hand | Path, grasps: HandGrasps, *,
         raise InputError(f"protocols must be different names, found {_arguments.shown(list(protocols))}")
     if not grasps.joint_names and grasps.joints.shape[1] > 0:
         raise InputError("grasps must have joint_names")
-    test = _Test(object, os.fspath(hand._core.path) if isinstance(hand, Hand) else _arguments.path("hand", hand),
+    test = _Test(object, hand._path if isinstance(hand, Hand) else _arguments.path("hand", hand),
                  [_arguments.numbers(f"pieces[{i}]", piece, "(V, 3)", (2,)) for i, piece in enumerate(pieces)],
                  [_PROTOCOLS.index(name) for name in protocols],
                  _arguments.number("mu", mu, 0), _arguments.number("mass_kg", mass_kg, 0))

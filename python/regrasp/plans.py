@@ -222,7 +222,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
                  goals: str | os.PathLike | Sequence[dict] | None = None,
                  gravity: str | ArrayLike | None = None, mass: float | None = None,
                  closure: str = "force", rolling: bool = False, optimize: str = "steps",
-                 reserve: str = "required", clearance: float = 0.001, seed: int = 0,
+                 robustness: str = "required", clearance: float = 0.001, seed: int = 0,
                  min_quality: float = 0.01, time_limit: float | None = None,
                  jobs: int | None = None, progress: Progress = None) -> Plan:
     """Find how a hand rotates or moves an object, or changes its grasp.
@@ -257,7 +257,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
         rolling: whether fingertips roll without slipping in in-hand motions, instead of contacts that
             are fixed on the object. Cannot be used with `goal` or the closure "gravity".
         optimize: "steps", or "margin" for the plan that fails under the fewest standard conditions.
-        reserve: robustness of the plan. "required" returns only a plan that executes in simulation on
+        robustness: robustness of the plan. "required" returns only a plan that executes in simulation on
             the hand's actuators. "preferred" returns a plan that does not if there is no other.
             "standard" returns only a plan that also executes with realistic sensors, joint errors of
             0.5° and 20 % less friction. "none" does not simulate.
@@ -323,10 +323,10 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
     task.gravity_support = _arguments.choice("closure", closure, ["force", "gravity"]) == "gravity"
     given.objective = getattr(_regrasp.Objective, _arguments.choice("optimize", optimize, ["steps", "margin"]))
     words = ["preferred", "required", "standard", "none"]
-    level = _arguments.choice("reserve", reserve, words)
+    level = _arguments.choice("robustness", robustness, words)
     task.is_standard = level == "standard"
     task.robustness = getattr(_regrasp.RobustnessLevel, "required" if task.is_standard else level)
-    task.clearance = _arguments.number("clearance", clearance, 0, 0.05, zero=True)
+    task.clearance = _arguments.number("clearance", clearance, 0, math.nextafter(0.05, 1), zero=True)
     return _plan_of(object, *_regrasp.find_plan_in_hand(
         object._core, given, hand._core, task, _arguments.callback("progress", progress)))
 
@@ -374,7 +374,7 @@ def _turn(turn) -> tuple[list[float], float]:
         raise InputError('turn must be an axis and degrees, for example ("z", 90), found '
                          f"{_arguments.shown(turn)}") from None
     axis = _arguments.choice("turn[0]", axis, ["x", "y", "z"])
-    degrees = _arguments.number("turn[1]", degrees, -3600.1, 3600.1)
+    degrees = _arguments.number("turn[1]", degrees, math.nextafter(-3600, -math.inf), math.nextafter(3600, math.inf))
     if degrees == 0:
         raise InputError("turn[1] must not be 0 degrees")
     return [float(axis == other) for other in "xyz"], degrees * (math.pi / 180)

@@ -133,7 +133,7 @@ class Report:
         """
         motion = self._core.motion()
         if motion is None:
-            raise InputError(f"{self!r} has no trajectory: no step was replayed")
+            raise InputError(f"{self!r} has no trajectory: no step was replayed in MuJoCo")
         times, poses, *fingers = motion
         pose = {"time_s": times, "position_m": poses[:, :3].copy(), "quaternion": poses[:, 3:].copy()}
         if len(fingers) == 1:
@@ -262,8 +262,8 @@ def _unpickle(object: Object, plan: Plan, arguments: dict[str, Any], text: str, 
 
 def validate(object: Object, plan: Plan, mu: float | None = None, *,
              friction_angle_deg: float | None = None, torsion: float | None = None,
-             mass: float | None = None, squeeze: float | None = None, shake: float = 0.01,
-             tolerance: float = 0.001, engine: str | None = None, stress: bool = False,
+             mass: float | None = None, grasp_force: float | None = None, disturbance: float = 0.01,
+             tolerance: float = 0.001, engine: str | None = None, resisted_wrench: bool = False,
              hand: Hand | None = None, replay: str | None = None, tip: str | None = None,
              tolerance_mm: float = 2, tolerance_deg: float = 5, feedback: bool = True,
              progress: Progress = None) -> Report:
@@ -278,13 +278,13 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         torsion: torsional friction length of soft fingers, in the object's unit. 0 means hard fingers;
             the default is that of the plan.
         mass: mass of the object, kg; default: that of the plan, otherwise that of water.
-        squeeze: grasp force (sum of normal forces), N. The default makes the weight a tenth of the
+        grasp_force: grasp force (sum of normal forces), N. The default makes the weight a tenth of the
             disturbance force; in a replay by a hand it follows from the torques of the actuators.
-        shake: disturbance force as a share of the grasp force.
+        disturbance: disturbance force as a share of the grasp force.
         tolerance: allowed displacement and slip as a share of the object's diameter.
         engine: engine of the replay: "mujoco" (default), "ode", or "both": MuJoCo decides, and steps
             on which the engines differ are listed.
-        stress: whether to compute the largest disturbance that each grasp resists per direction.
+        resisted_wrench: whether to compute the largest disturbance that each grasp resists per direction.
         hand: hand of the plan. Its joints, limits, fingertips and collisions are checked, and images
             show it.
         replay: "points" for ideal point fingers, or "hand" for the hand's model with its actuators;
@@ -323,8 +323,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     _arguments.of_type("object", object, Object)
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
     arguments = {"mu": mu, "friction_angle_deg": friction_angle_deg, "torsion": torsion, "mass": mass,
-                 "squeeze": squeeze, "shake": shake, "tolerance": tolerance, "engine": engine,
-                 "stress": stress, "hand": hand, "replay": replay, "tip": tip, "tolerance_mm": tolerance_mm,
+                 "grasp_force": grasp_force, "disturbance": disturbance, "tolerance": tolerance, "engine": engine,
+                 "resisted_wrench": resisted_wrench, "hand": hand, "replay": replay, "tip": tip, "tolerance_mm": tolerance_mm,
                  "tolerance_deg": tolerance_deg, "feedback": feedback}
     given = _regrasp.ValidationOptions()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
@@ -332,13 +332,13 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
         given.torsion = _arguments.number("torsion", torsion, 0, zero=True)
     if mass is not None:
         given.mass_kg = _arguments.number("mass", mass, 0)
-    if squeeze is not None:
-        given.squeeze_N = _arguments.number("squeeze", squeeze, 0)
-    given.shake = _arguments.number("shake", shake, 0, zero=True)
+    if grasp_force is not None:
+        given.grasp_force_N = _arguments.number("grasp_force", grasp_force, 0)
+    given.disturbance = _arguments.number("disturbance", disturbance, 0, zero=True)
     given.tolerance = _arguments.number("tolerance", tolerance, 0)
     if engine is not None:
         given.set_engine(_arguments.choice("engine", engine, list(_regrasp.engines)))
-    given.stress = _arguments.flag("stress", stress)
+    given.resisted_wrench = _arguments.flag("resisted_wrench", resisted_wrench)
     if hand is not None:
         _arguments.of_type("hand", hand, Hand, "; Hand.read reads one")
     if hand is not None and "hand" not in plan.data:
@@ -350,8 +350,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     given.replay_by_hand = _arguments.choice("replay", replay, ["points", "hand"]) == "hand"
     if given.replay_by_hand and hand is None:
         raise InputError('hand is required for replay="hand"')
-    if given.replay_by_hand and given.stress:
-        raise InputError('stress requires replay="points"')
+    if given.replay_by_hand and given.resisted_wrench:
+        raise InputError('resisted_wrench requires replay="points"')
     if tip is not None:
         if _arguments.choice("tip", tip, ["ball", "geometry"]) == "geometry":
             given.use_tip_geometry()

@@ -146,7 +146,8 @@ class Page {
     const std::string steps = std::to_string(plan_.steps.size());
     return "The hold and " +
            (plan_.steps.size() == 1 ? "the one step" : "all " + steps + " steps") +
-           " pass: every grasp along them is force closure" + what + ", in every static grasp.";
+           " pass: every grasp along them is " + StabilityText(report_) + what +
+           ", in every static grasp.";
   }
 
   [[nodiscard]] std::string FailureStatement() const {
@@ -245,8 +246,8 @@ class Page {
         "normal, in the static grasp after the step in the replay.";
     return Figure({}, DrawStepPlot(plot), "Friction margin.",
                   "Discs: the friction angle minus the smallest one at which every grasp of the "
-                  "step is force closure." +
-                      (plot.series.size() > 1 ? rings : ""));
+                  "step is " +
+                      StabilityText(report_) + "." + (plot.series.size() > 1 ? rings : ""));
   }
 
   [[nodiscard]] bool HasPicture(plan::EntryIndex index) const {

@@ -217,6 +217,8 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
   const std::vector<Element> head = {
       HeadCell("Step"),  HeadCell("Verdict", ""), HeadCell("Description", ""), HeadCell(kRequired),
       HeadCell(kMargin), HeadCell(kDisplacement), HeadCell(kRotation),         HeadCell(kSlip)};
+  // A hand's disturbance test leaves its measurements to the violated limits.
+  const bool is_by_hand = report.settings && report.settings->hand;
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {
     const plan::EntryIndex index = step.check.index;
@@ -225,10 +227,11 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
   }
   return {
       ScrolledTable(head, rows, "cards"),
-      Note("Required friction: the smallest friction angle at which every grasp of the step is "
-           "force closure. Friction margin: the plan’s friction angle minus the required one. "
-           "Displacement, rotation and slip: the largest values in the replay of the step and in "
-           "the disturbance test after it.")};
+      Note("Required friction: the smallest friction angle at which every grasp of the step is " +
+           StabilityText(report) +
+           ". Friction margin: the plan’s friction angle minus the required one. "
+           "Displacement, rotation and slip: the largest values in the replay of the step" +
+           std::string(is_by_hand ? "." : " and in the disturbance test after it."))};
 }
 
 std::vector<Element> MakeFingerTable(const Report& report) {

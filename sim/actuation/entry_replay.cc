@@ -135,8 +135,11 @@ StepReplay EntryReplay::Carry(plan::EntryIndex index) {
     step.snapshot = SnapshotNow();
   } catch (const UnstableError& error) {
     has_ended_ = true;
-    step.reason = plan::Reason::kSimulationUnstable;
-    step.detail = std::string("the simulation diverges: ") + error.what();
+    // With to_end, a violated limit can precede the divergence and is the reason then.
+    if (!monitor_.violation()) {
+      step.reason = plan::Reason::kSimulationUnstable;
+      step.detail = std::string("the simulation diverges: ") + error.what();
+    }
   }
   Describe(step);
   step.fixed = static_cast<const StepMotion&>(step);  // only servos resist the disturbance test

@@ -203,7 +203,7 @@ void HandControl::Measure() {
 
 void HandControl::IntegrateDeviations() {
   sensors_.Update(planned_.pose);
-  const double share = kPoseGain * std::max(sensors_.pose_period(), kPeriod);
+  const double share = std::min(1.0, kPoseGain * std::max(sensors_.pose_period(), kPeriod));
   while (const std::optional<PoseDeviation> off = sensors_.TakeDeviation()) {
     if (corrects_) Integrate(share, *off);
   }

@@ -35,7 +35,8 @@ HandSensors::HandSensors(const HandEngine& world, const HandSensing& sensing)
       bias_(DrawDeviation(sensing.pose_bias_m, sensing.pose_bias_rad, sensing.seed, 0)) {}
 
 bool HandSensors::Touches(FingerIndex finger) const {
-  return world_.touch(finger).force.norm() >= sensing_.touch_N;
+  const double force_N = world_.touch(finger).force.norm();
+  return force_N > 0 && force_N >= sensing_.touch_N;
 }
 
 void HandSensors::Update(const Isometry3d& planned) {

@@ -202,7 +202,7 @@ std::optional<HandFinding> FindMissedGoal(const plan::Plan& plan, int entry,
     const plan::GoalDistance off = mark.set.Distance(state.pose);
     if (off.length > kGoalLength || off.angle > kGoalAngle) return GoalSetMissed(state, mark);
   }
-  if (entry == 0 || entry != std::ssize(plan.steps)) return std::nullopt;
+  if (entry != std::ssize(plan.steps)) return std::nullopt;
   const Isometry3d& goal = plan.hand->goal;
   const double length = (goal.translation() - state.pose.translation()).norm();
   const double turn = object::RotationInBody(goal.linear(), state.pose.linear()).angle();

@@ -100,7 +100,7 @@ class ArgumentsTest(RegraspCase):
 
     def test_of_plans_in_hands(self):
         self.check(regrasp.plan_in_hand, object=self.cube, hand=self.hand, mu=0.8, turn=("z", 5),
-                   start=None, goal=None, start_pose=None, rolling=False, reserve="none", clearance=0.001, seed=0,
+                   start=None, goal=None, start_pose=None, rolling=False, robustness="none", clearance=0.001, seed=0,
                    min_quality=0.01, time_limit=0.2, jobs=1, progress=None)
 
     def test_of_validation(self):
@@ -108,7 +108,7 @@ class ArgumentsTest(RegraspCase):
         self.check(report.frames, size=(320, 240))
         self.check(report.overview, size=(320, 240))
         self.check(regrasp.validate, object=self.cube, plan=self.plan, mu=None, mass=None,
-                   squeeze=None, shake=0.01, tolerance=0.001, stress=False, hand=None, replay=None,
+                   grasp_force=None, disturbance=0.01, tolerance=0.001, resisted_wrench=False, hand=None, replay=None,
                    tolerance_mm=2, tolerance_deg=5, feedback=True, progress=None)
 
     def test_of_formats(self):

@@ -62,12 +62,12 @@ class HandsTest(RegraspCase):
         pose = first.data["hand"]["initial"]["pose"]
         start_pose = [*pose["position"], *pose["quaternion"]]
         again = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
-                                     turn=("z", 10), reserve="none")
+                                     turn=("z", 10), robustness="none")
         np.testing.assert_allclose(again.data["hand"]["initial"]["pose"]["position"],
                                    start_pose[:3], atol=1e-12)
         with self.assertRaisesRegex(regrasp.InputError, "goal pose: .* out of reach of every"):
             regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start_pose=start_pose,
-                                 goal_pose=[5, 0, 0, 1, 0, 0, 0], reserve="none")
+                                 goal_pose=[5, 0, 0, 1, 0, 0, 0], robustness="none")
 
     def test_a_plan_starts_and_ends_at_hand_grasps(self):
         plan = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, turn=("z", 30))
@@ -77,7 +77,7 @@ class HandsTest(RegraspCase):
         with open(self.path("set.jsonl"), encoding="utf-8") as file:
             lines = [json.loads(line) for line in file]
         first, last = lines[0], lines[-1]
-        between = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start=first, goal=last, reserve="none")
+        between = regrasp.plan_in_hand(self.cube, self.hand, mu=0.8, start=first, goal=last, robustness="none")
         self.assertEqual([step["kind"] for step in between.data["steps"]], ["move"])
         np.testing.assert_allclose(between.data["hand"]["initial"]["joints"], plan.data["hand"]["initial"]["joints"],
                                    atol=1e-6)
@@ -211,7 +211,7 @@ class HandsTest(RegraspCase):
         plan("start", "file random not found", start="random", turn=("z", 9))
         plan("start", "3 to 4 contacts", "found 2", turn=("z", 9),
              start=[[.03, 0, 0], [-.03, 0, 0]])
-        plan("reserve", "'preferred'", reserve="prefered", turn=("z", 9))
+        plan("robustness", "'preferred'", robustness="prefered", turn=("z", 9))
         plan("gravity", "zero", gravity=[0, 0, 0], turn=("z", 9))
         plan("gravity", "'any'", gravity="up", turn=("z", 9))
         plan("closure", "'gravity'", closure="form", turn=("z", 9))

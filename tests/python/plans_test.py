@@ -189,7 +189,7 @@ class PlansTest(RegraspCase):
         self.assertEqual(len(broken.frames((320, 240))), 1)
 
     def test_a_pickled_report_is_equal_and_draws_the_same(self):
-        for arguments in ({}, {"mu": 0.05}, {"mass": 0.2, "stress": True}):
+        for arguments in ({}, {"mu": 0.05}, {"mass": 0.2, "resisted_wrench": True}):
             report = regrasp.validate(self.cube, self.plan, **arguments)
             again = pickle.loads(pickle.dumps(report))
             self.assertEqual(again, report)

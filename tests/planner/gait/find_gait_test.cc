@@ -17,6 +17,7 @@
 #include "planner/grasp/required_friction_angle.h"
 #include "planner/kinematics/finger_kinematics.h"
 #include "planner/plan/check.h"
+#include "planner/plan/plan_io.h"
 #include "tests/fixtures/solids.h"
 #include "tests/planner/gait/gait_requests.h"
 
@@ -415,10 +416,13 @@ TEST(FindGaitTest, TheNumberOfHoldingFingersMayChange) {
     const GaitResult found = FindGait(request);
     ASSERT_TRUE(found.gait) << found.message;
     EXPECT_EQ(Sorted(LastGrasp(found)), Sorted(request.goal_grasp));
-    const plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
+    plan::Plan plan = PlanOf(*found.gait, request, found.contacts);
     EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
     EXPECT_EQ(plan.initial.size(), request.start_grasp.size());
     EXPECT_EQ(plan.goal.size(), request.goal_grasp.size());
+    plan.object_sha256 = plan.hand->sha256 = std::string(64, '0');
+    const std::string text = plan::FormatPlan(plan);
+    EXPECT_EQ(plan::FormatPlan(plan::ParsePlan(text, "plan")), text);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <map>
 #include <string>
@@ -40,6 +42,12 @@ inline GaitRequest RequestFor(const std::string& model, double scale, double deg
   request.turn = {Eigen::Vector3d::UnitZ(), Radians(degrees)};
   request.seed = 2;
   return request;
+}
+
+/// Fails if there is no simulation result.
+inline bool ExecutesInSimulation(const GaitResult& result) {
+  EXPECT_TRUE(result.execution) << result.message;
+  return result.execution && result.execution->is_whole;
 }
 
 }  // namespace regrasp::gait

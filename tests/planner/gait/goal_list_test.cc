@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include "gait_requests.h"
@@ -123,6 +125,29 @@ TEST(GoalListTest, TheGoalThatIsNotReachedIsReported) {
   EXPECT_FALSE(found.plan);
   EXPECT_THAT(found.message, testing::HasSubstr("goal 2 of 2 (b) is not reached"));
   EXPECT_THAT(found.message, testing::HasSubstr("of the path to its goal"));
+}
+
+/// The time is over as soon as the first goal has been reached, or from the beginning.
+TEST(GoalListTest, WithoutTimeForASearchTheFirstUnreachedGoalIsReported) {
+  GaitRequest request = QuickRequest();
+  request.goals = {{"a", Facing({1, 0, 1}, 30)}, {"b", Facing({1, 0, -1}, 30)}};
+  Deadline::Clock::time_point now;
+  request.deadline = {now + std::chrono::seconds(10), [&] { return now; }};
+  request.simulate = [&](const plan::Plan& plan, const Deadline&) {
+    now += std::chrono::seconds(20);
+    return std::optional(planning::ExecutionResult{
+        .is_held = true, .steps = static_cast<int>(plan.steps.size()), .is_whole = true});
+  };
+  request.robustness = RobustnessLevel::kRequired;
+  const GoalListResult second = FindPlanThroughGoals(request);
+  EXPECT_FALSE(second.plan);
+  EXPECT_THAT(second.message, testing::StartsWith("goal 2 of 2 (b) is not reached"));
+  EXPECT_THAT(second.message, testing::EndsWith(": no initial pose was searched"));
+  const GoalListResult first = FindPlanThroughGoals(request);
+  EXPECT_FALSE(first.plan);
+  EXPECT_EQ(first.message, "goal 1 of 2 (a) is not reached: no initial pose was searched");
+  request.goals.pop_back();
+  EXPECT_EQ(FindPlanThroughGoals(request).message, "no initial pose was searched");
 }
 
 /// The part after the first goal is simulated with all steps before it.

@@ -43,6 +43,19 @@ TEST(StepTableTest, WhatWasNotReplayedHasNoMotion) {
   EXPECT_THAT(table(), Not(HasSubstr("data-name=\"Slip\">–</td>")));
 }
 
+TEST(StepTableTest, TheNoteStatesWhatHoldsTheObjectAndWhatWasMeasured) {
+  Report report = MakeReport();
+  const auto table = [&] {
+    return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
+  };
+  EXPECT_THAT(table(), HasSubstr("every grasp of the step is force closure."));
+  EXPECT_THAT(table(), HasSubstr("and in the disturbance test after it."));
+  report.steps[0].check.is_supported = true;
+  report.settings.emplace().hand.emplace();
+  EXPECT_THAT(table(), HasSubstr("is force closure or supported by gravity."));
+  EXPECT_THAT(table(), Not(HasSubstr("disturbance test")));
+}
+
 TEST(FingerTableTest, AFingerThatTheOthersCannotDoWithoutSaysNone) {
   Report report = MakeReport();
   EXPECT_TRUE(MakeFingerTable(report).empty());

@@ -61,6 +61,19 @@ TEST_F(HandSensorsTest, WithoutFeedbackNothingArrives) {
   EXPECT_TRUE(Run(blind, 0.5).empty());
 }
 
+/// The fingertips are in the air, where the force is exactly 0.
+TEST_F(HandSensorsTest, WithoutForceNoThresholdIsReached) {
+  HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
+  plan::HandState away = plan_.hand->initial;
+  away.pose.translation().z() += 0.2;
+  world.Place(away);
+  for (const double threshold : {0.0, 0.3}) {
+    HandSensing sensing = kExact;
+    sensing.touch_N = threshold;
+    EXPECT_FALSE(HandSensors(world, sensing).Touches(FingerIndex{0})) << threshold;
+  }
+}
+
 TEST_F(HandSensorsTest, NoiseDiffersByMeasurementAndABiasDoesNot) {
   HandSensing noisy = kExact;
   noisy.pose_noise_m = 3e-4;

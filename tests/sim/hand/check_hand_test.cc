@@ -352,6 +352,15 @@ TEST(CheckHandTest, EachFaultIsFoundWhereItIs) {
          plan.hand->goal.translation().z() += 1e-5;
          return static_cast<int>(plan.steps.size());
        }},
+      {"the object of a plan without steps has another goal", Reason::kGoalNotReached,
+       "from its goal",
+       [](plan::Plan& plan) {
+         plan.steps.clear();
+         plan.goal = plan::ContactsOf(plan.initial);
+         plan.hand->goal = plan.hand->initial.pose;
+         plan.hand->goal.translation().z() += 1e-5;
+         return 0;
+       }},
       {"the object is outside its goal set", Reason::kGoalNotReached, "outside its goal set",
        [](plan::Plan& plan) {
          const Vector3d down = plan.hand->goal.linear() * -Vector3d::UnitX();
