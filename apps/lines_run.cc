@@ -106,7 +106,7 @@ int RunLinesFile(const LinesRun& run) {
     PrintMessage(run.program,
                  run.output.string() + ": " + OutcomeCountsText(counts) +
                      (kept > 0 ? "; " + std::to_string(kept) + " kept from an earlier run" : "") +
-                     "; " + FormatShort(watch.Lap(), 2) + " s");
+                     "; " + FormatPlain(watch.Lap(), 2) + " s");
   }
   return ExitCodeOf(counts, run.content);
 }

@@ -12,6 +12,7 @@
 
 #include "planner/base/error.h"
 #include "planner/base/file.h"
+#include "planner/kinematics/hand_file.h"
 
 namespace regrasp::apps {
 
@@ -42,12 +43,19 @@ bool IsInside(const fs::path& folder, const fs::path& place) {
          folder.end();
 }
 
+/// Option of a hand file, whose model and meshes are inputs too.
+constexpr std::string_view kHandOption = "--hand";
+
 /// Files that a program reads or writes.
 class KnownFiles {
  public:
   explicit KnownFiles(const std::vector<NamedFile>& inputs) {
     for (const NamedFile& input : inputs) {
-      if (const auto id = IdOf(input.path)) inputs_.emplace(*id, input.option);
+      AddInput(input.option, input.path);
+      if (input.option != kHandOption || input.path.empty()) continue;
+      for (const fs::path& file : kinematics::FilesOfHand(input.path)) {
+        AddInput(input.option, file);
+      }
     }
   }
 
@@ -95,6 +103,10 @@ class KnownFiles {
   }
 
  private:
+  void AddInput(const std::string& option, const fs::path& path) {
+    if (const auto id = IdOf(path)) inputs_.emplace(*id, option);
+  }
+
   static void RefuseTwice(const fs::path& path, const std::string& option,
                           const std::string& other) {
     if (option == other) return;

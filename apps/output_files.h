@@ -41,7 +41,8 @@ struct OutputFiles {
 ///
 /// The folders are read once, because a batch may have thousands of inputs and folders. Call this
 /// function before anything is written or removed.
-/// @param inputs  files to read. Folders and files that do not exist are ignored.
+/// @param inputs  files to read. Folders and files that do not exist are ignored. The model and the
+///     meshes of the hand file of `--hand` are inputs too.
 /// @throws InputError  if two files are the same; the message names the file and both options.
 void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles& outputs);
 

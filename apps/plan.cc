@@ -84,7 +84,7 @@ void PrintSummary(const PlannerOptions& common, const FinishedPlan& finished) {
   PrintMessage(kPlanName,
                planner + ": " + StepCounts(result.plan->steps) + "; weakest: " +
                    plan::WeakestStepText(finished.check.steps, result.plan->friction_angle) + "; " +
-                   FormatShort(time.count(), 2) + " s");
+                   FormatPlain(time.count(), 2) + " s");
   for (const std::string& note : result.notes) PrintMessage(kPlanName, note);
 }
 

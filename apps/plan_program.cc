@@ -22,6 +22,7 @@
 #include "planner/roadmap/roadmap_parameters.h"
 #include "planner/tree/tree_planner.h"
 #include "sim/actuation/simulate_execution.h"
+#include "sim/hand/check_hand.h"
 #include "sim/hand_grasps/fingertip_grasp.h"
 
 namespace regrasp::apps {
@@ -172,6 +173,16 @@ std::optional<double> PlanProgram::MassInSimulation() const {
   return continued->hand->mass_kg;
 }
 
+void PlanProgram::CheckContinued(const object::Polyhedron& solid) const {
+  const auto faults = sim::CheckHand(*hand_file, solid, plan::ProjectPlan(solid, *continued),
+                                     {.clearance_m = hand.clearance_m});
+  if (faults.empty()) return;
+  throw InputError("--continue: " + hand.continue_plan + ": step " +
+                   std::to_string(faults.front().entry) + " fails the hand check (" +
+                   std::string(plan::ReasonName(faults.front().reason)) +
+                   "): " + faults.front().detail);
+}
+
 planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, PlanEnd& from,
                                           PlanEnd& to) const {
   planning::InHandTask task{.hand = &hand_file->hand, .scale = common.scale};
@@ -189,6 +200,7 @@ planning::InHandTask PlanProgram::TaskFor(const object::ObjectFile& object, Plan
   std::optional<plan::HandEnd> begin;
   if (continued) {
     CheckPlanFits(*continued, object, {hand.continue_plan, common.object, false, common.scale});
+    CheckContinued(solid);
     begin = plan::EndOfPlan(*continued);
     if (continued->hand->gravity_support) task.gravity_support = continued->hand->gravity_support;
   } else if (from.hand_grasp) {

@@ -106,6 +106,9 @@ struct PlanProgram {
   void ReadContinuedPlan();
   [[nodiscard]] planning::GraspChoice Choose(const PlanEnd& end,
                                              const object::Object& object) const;
+  /// Check that the hand executes the plan of --continue up to its end, by the hand check.
+  /// @throws InputError  with the first fault.
+  void CheckContinued(const object::Polyhedron& solid) const;
   /// Return the state of a hand grasp.
   [[nodiscard]] plan::HandEnd StateOf(const NamedHandGrasp& given, const object::ObjectFile& object,
                                       double clearance) const;

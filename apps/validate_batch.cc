@@ -96,7 +96,8 @@ std::vector<NamedFile> InputsOf(const ValidateOptions& options, const PlanLibrar
   std::vector<NamedFile> inputs = {{"--object", options.object_path},
                                    {"--start", options.start},
                                    {"--goal", options.goal},
-                                   {"--hand", options.hand}};
+                                   {"--hand", options.hand},
+                                   {"--conditions", options.ConditionsFile()}};
   std::error_code error;
   for (fs::directory_iterator entry(options.object_path, error), end; !error && entry != end;
        entry.increment(error)) {

@@ -77,6 +77,10 @@ struct ValidateOptions {
   sim::TrialOptions trials;              ///< options of repeated replays; a count of 0: none
   std::string conditions;         ///< nominal, standard or a file of conditions; empty: not given
   std::string conditions_sha256;  ///< digest of that file; empty if there is none
+  /// Return the file of conditions; empty if there is none.
+  [[nodiscard]] std::string ConditionsFile() const {
+    return conditions_sha256.empty() ? "" : conditions;
+  }
   std::vector<sim::HandCondition> condition_list;  ///< conditions; set by Finish
   std::optional<double> required_conditions;       ///< required share of the conditions
   render::FrameOptions frame;

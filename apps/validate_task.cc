@@ -198,7 +198,8 @@ void CheckOutputs(const ValidateOptions& options) {
                       {input, options.InputPath()},
                       {"--start", options.start},
                       {"--goal", options.goal},
-                      {"--hand", options.hand}},
+                      {"--hand", options.hand},
+                      {"--conditions", options.ConditionsFile()}},
                      outputs);
   CheckOutputsWritable(outputs);
 }

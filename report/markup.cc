@@ -111,7 +111,8 @@ Element MakeCase(const std::string& suite, const JunitCase& result) {
       element.Add(Element("error", message, result.text));
       break;
     case JunitOutcome::kSkipped:
-      element.Add(Element("skipped"));
+      element.Add(result.message.empty() ? Element("skipped")
+                                         : Element("skipped", message, result.text));
       break;
   }
   return element;
@@ -172,9 +173,11 @@ void AddConditionCases(const sim::ConditionSummary& summary, JunitSuite& suite) 
     const bool counts = result.applies && summary.required.has_value();
     JunitOutcome outcome = result.passed() ? JunitOutcome::kPassed : JunitOutcome::kSkipped;
     if (counts && !result.passed() && !summary.enough()) outcome = JunitOutcome::kFailed;
+    const std::string reason =
+        result.applies ? std::string(plan::ReasonName(result.reason)) : "not applicable";
     suite.cases.push_back({.name = "condition " + result.condition.name,
                            .outcome = outcome,
-                           .message = std::string(plan::ReasonName(result.reason)),
+                           .message = reason,
                            .text = result.detail});
   }
 }

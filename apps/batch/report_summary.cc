@@ -112,7 +112,9 @@ ReportSummary SummarizeReport(const Json& json, const std::string& name) {
   if (root.Has("run")) ReadRun(root.Member("run"), summary);
   if (root.Has("trials")) summary.trials = ReadCounts(root.Member("trials"), "count", 1);
   if (root.Has("conditions")) {
-    summary.conditions = ReadCounts(root.Member("conditions"), "applicable", 0);
+    const plan::JsonReader conditions = root.Member("conditions");
+    summary.conditions = ReadCounts(conditions, "applicable", 0);
+    summary.conditions->decides = !conditions.Member("required").IsNull();
   }
   const plan::JsonReader list = root.Member("steps");
   const std::vector<plan::JsonReader> steps = list.Elements();

@@ -26,6 +26,7 @@ struct ReportSummary {
     int passed = 0;
     std::string detail = {}, why = {}, suggested_fix = {};  ///< failure text if too few pass
     bool enough = true;
+    bool decides = true;  ///< whether the verdict depends on them
   };
   bool passed = false;
   std::string object;                        ///< name of the object file

@@ -188,6 +188,21 @@ void CheckReach(const GaitRequest& request, const collision::SurfaceTree& surfac
       FormatShort(first.reach, 3) + " m");
 }
 
+/// @throws InputError  if the object is closer to the palm than the clearance at the pose.
+void CheckPalm(const GaitRequest& request, const collision::SurfaceTree& surface,
+               const std::optional<Eigen::Isometry3d>& pose, const std::string& option) {
+  if (!pose) return;
+  for (const kinematics::LinkShape& link : request.hand->palm) {
+    const double gap =
+        surface.DistanceFrom(collision::Moved(pose->inverse(), link.shape), request.margin);
+    if (gap >= request.margin) continue;
+    throw InputError(option + ": the object " +
+                     (gap > 0 ? "is " + FormatLength(gap) + " from" : "collides with") +
+                     " the palm (body " + link.link + "), expected a clearance of at least " +
+                     FormatLength(request.margin));
+  }
+}
+
 bool IsAdmitted(const std::vector<int>& grasp, criteria::GraspMemory& memory) {
   criteria::ContactSet contacts;
   for (const int number : grasp) {
@@ -343,8 +358,10 @@ GaitResult FindGait(const GaitRequest& request) {
   CheckFingers(request, request.start_fingers, request.start_grasp, "start");
   CheckFingers(request, request.goal_fingers, request.goal_grasp, "goal");
   const collision::SurfaceTree surface(*request.solid, request.scale);
+  CheckPalm(request, surface, request.start_pose, "start pose");
   CheckReach(request, surface, request.start_pose, "start pose");
   if (request.goal && request.goal->HasDefaultTolerance()) {
+    CheckPalm(request, surface, request.goal->pose()->pose, "goal pose");
     CheckReach(request, surface, request.goal->pose()->pose, "goal pose");
   }
   GaitResult result;

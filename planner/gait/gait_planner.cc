@@ -289,7 +289,13 @@ PlanResult GaitPlanner::Plan(const PlanRequest& asked) const {
     result.notes.push_back("the plan executes in simulation with a tolerance margin of " +
                            FormatShort(std::floor(100 * found.execution->tolerance_margin)) +
                            " % of the replay's limits");
-    if (found.execution->rating) result.notes.push_back(RatingText(*found.execution->rating));
+    if (found.execution->rating) {
+      result.notes.push_back(RatingText(*found.execution->rating));
+    } else if (request.seeks_most_margin && request.rate) {
+      result.warnings.push_back(
+          "time limit reached before a plan was simulated under the standard conditions: the plan "
+          "is the first one that executes");
+    }
   } else if (found.execution) {
     const bool is_failure = !found.execution->is_cut_short;
     result.warnings.push_back(

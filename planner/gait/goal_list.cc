@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/error.h"
 #include "planner/gait/find_gait.h"
 #include "planner/gait/plan_of_gait.h"
 #include "planner/plan/projection.h"
@@ -144,7 +145,7 @@ class GoalListSearch {
       request_.progress("goal " + std::to_string(goal + 1) + " of " +
                         std::to_string(request_.goals.size()) + ": " + std::string(text));
     };
-    const GaitResult found = FindGait(request);
+    const GaitResult found = FindFor(goal, request);
     was_cut_short_ = !found.gait && request.deadline.IsOver();
     if (!found.gait) {
       Note(goal, found);
@@ -161,6 +162,16 @@ class GoalListSearch {
     return end;
   }
 
+  /// @throws InputError  as FindGait, with the name of the goal.
+  [[nodiscard]] GaitResult FindFor(std::size_t goal, const GaitRequest& request) const {
+    try {
+      return FindGait(request);
+    } catch (const InputError& error) {
+      throw InputError("goal " + std::to_string(goal + 1) + " (" + request_.goals[goal].name +
+                       "): " + error.what());
+    }
+  }
+
   /// Return whether a short search without simulation reaches a goal.
   [[nodiscard]] bool SeesNext(std::size_t goal, const Prefix& before) const {
     GaitRequest request = RequestFor(goal, before);
@@ -169,7 +180,7 @@ class GoalListSearch {
     request.names_causes = false;
     request.most_expanded = std::min(request.most_expanded, kLookAheadExpanded);
     request.deadline = request_.deadline.After(kLookAheadTime);
-    return FindGait(request).gait.has_value();
+    return FindFor(goal, request).gait.has_value();
   }
 
   /// Record why a goal is not reached; the farthest goal counts.

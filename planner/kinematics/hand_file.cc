@@ -366,6 +366,18 @@ HandFile ReadHandFile(const fs::path& path) {
   return file;
 }
 
+std::vector<fs::path> FilesOfHand(const fs::path& path) {
+  try {
+    const HandDescription description = ParseHandDescription(ReadFile(path), path.string());
+    const ModelText model = ReadModelText(path.parent_path() / description.model);
+    std::vector<fs::path> files = model.files;
+    for (const MeshFile& mesh : model.meshes) files.push_back(mesh.path);
+    return files;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 HandModel ReadHand(const fs::path& path) { return ReadHandFile(path).hand; }
 
 HandFile HandOfPlan(HandFile file, const plan::Plan& plan) {

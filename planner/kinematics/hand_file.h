@@ -35,6 +35,10 @@ struct HandFile {
 ///     element.
 [[nodiscard]] HandFile ReadHandFile(const std::filesystem::path& path);
 
+/// Return the files that a hand file names: those of its model with includes, and the meshes.
+/// Empty if the hand file or its model is invalid.
+[[nodiscard]] std::vector<std::filesystem::path> FilesOfHand(const std::filesystem::path& path);
+
 /// Return a hand on which gravity acts as in a plan (plan::HandUse::up).
 [[nodiscard]] HandFile HandOfPlan(HandFile file, const plan::Plan& plan);
 

@@ -124,7 +124,7 @@ std::vector<NamedGoal> ParseGoalList(std::string_view text, const std::string& n
   for (const JsonReader& element : elements) {
     element.ExpectOnly({"name", "facing", "pose", "tolerance_m", "tolerance_deg", "point"});
     const JsonReader goal_name = element.Member("name");
-    goals.push_back({goal_name.String(), ReadGoalSet(element, up)});
+    goals.push_back({goal_name.Name(), ReadGoalSet(element, up)});
     if (goals.back().name.empty()) goal_name.Fail("must not be empty");
     if (!names.insert(goals.back().name).second) {
       goal_name.Fail("must be unique, found " + goal_name.Quoted() + " again");
@@ -140,7 +140,7 @@ std::vector<NamedGoal> ReadGoalList(const std::filesystem::path& path, const Eig
 std::vector<GoalMark> ReadGoalMarks(const JsonReader& json) {
   std::vector<GoalMark> marks;
   for (const JsonReader& element : json.Elements()) {
-    GoalMark mark{element.Has("name") ? element.Member("name").String() : "",
+    GoalMark mark{element.Has("name") ? element.Member("name").Name() : "",
                   element.Member("step").Integer(0, std::numeric_limits<int>::max()),
                   ReadGoalSet(element, std::nullopt)};
     if (!marks.empty() && mark.step < marks.back().step) {

@@ -61,6 +61,15 @@ std::string JsonReader::String() const {
   return value_.get<std::string>();
 }
 
+std::string JsonReader::Name() const {
+  constexpr unsigned char kSpace = 0x20, kDelete = 0x7f;
+  std::string name = String();
+  const bool is_plain =
+      std::ranges::none_of(name, [](unsigned char c) { return c < kSpace || c == kDelete; });
+  if (!is_plain) Fail("expected a name without control characters, found " + Quoted());
+  return name;
+}
+
 std::string JsonReader::OneOf(std::initializer_list<const char*> choices) const {
   const std::string found = String();
   std::string expected;
@@ -245,7 +254,8 @@ Eigen::Isometry3d ReadPose(const JsonReader& json) {
   }
   const Eigen::Quaterniond quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   if (!(std::abs(quaternion.norm() - 1) <= kUnitTolerance)) {
-    turn.Fail("expected a quaternion of length 1, found " + turn.Quoted());
+    turn.Fail("expected a quaternion of length 1, found length " +
+              FormatShort(quaternion.norm(), 4));
   }
   pose.linear() = quaternion.normalized().toRotationMatrix();
   return pose;

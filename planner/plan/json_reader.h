@@ -37,6 +37,8 @@ class JsonReader {
   [[nodiscard]] std::vector<JsonReader> Elements() const;
 
   [[nodiscard]] std::string String() const;
+  /// Return a string without control characters, for messages.
+  [[nodiscard]] std::string Name() const;
   /// Return a string that must be one of the choices.
   [[nodiscard]] std::string OneOf(std::initializer_list<const char*> choices) const;
   /// Return a number with absolute value at most kLargestNumber.

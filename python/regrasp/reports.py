@@ -324,8 +324,8 @@ def validate(object: Object, plan: Plan, mu: float | None = None, *,
     _arguments.of_type("plan", plan, Plan, "; Plan.read reads a file")
     arguments = {"mu": mu, "friction_angle_deg": friction_angle_deg, "torsion": torsion, "mass": mass,
                  "grasp_force": grasp_force, "disturbance": disturbance, "tolerance": tolerance, "engine": engine,
-                 "resisted_wrench": resisted_wrench, "hand": hand, "replay": replay, "tip": tip, "tolerance_mm": tolerance_mm,
-                 "tolerance_deg": tolerance_deg, "feedback": feedback}
+                 "resisted_wrench": resisted_wrench, "hand": hand, "replay": replay, "tip": tip,
+                 "tolerance_mm": tolerance_mm, "tolerance_deg": tolerance_deg, "feedback": feedback}
     given = _regrasp.ValidationOptions()
     given.half_angle = _arguments.half_angle(mu, friction_angle_deg)
     if torsion is not None:

@@ -117,7 +117,7 @@ void CheckMembers(const JsonReader& json, const Json& condition) {
 
 std::string ReadConditionName(const JsonReader& json, std::set<std::string>& names) {
   const JsonReader name = json.Member(kNameKey);
-  const std::string text = name.String();
+  const std::string text = name.Name();
   if (text.empty()) name.Fail("expected a name, found an empty one");
   if (!names.insert(text).second) name.Fail("must be unique, found twice: " + name.Quoted());
   return text;

@@ -85,8 +85,8 @@ DriveActuator FindServo(const kinematics::Finger& finger, const std::vector<int>
     }
   }
   if (found.actuator < 0) {
-    throw InputError("hand model: actuator of joint " +
-                     kinematics::LeadingJoint(finger, drive).name + " not found");
+    throw NoActuatorError("hand model: actuator of joint " +
+                          kinematics::LeadingJoint(finger, drive).name + " not found");
   }
   const int a = found.actuator;
   const mjtNum* bias = model.actuator_biasprm + std::ptrdiff_t{mjNBIAS} * a;

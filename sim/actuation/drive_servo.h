@@ -27,6 +27,12 @@ struct DriveServo {
   double model_stiffness = 0;
 };
 
+/// No actuator moves an independent joint of a hand.
+class NoActuatorError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// The actuator that moves an independent joint.
 struct DriveActuator {
   int actuator = -1;  ///< index of the actuator in the model
@@ -44,7 +50,7 @@ struct DriveActuator {
 /// @param force_factor  factor on the force limit of the model.
 /// @param data          data of the model with the moments of actuators, in any joint
 ///     configuration.
-/// @throws InputError  if no actuator moves the joint.
+/// @throws NoActuatorError  if no actuator moves the joint.
 [[nodiscard]] DriveActuator FindServo(const kinematics::Finger& finger,
                                       const std::vector<int>& joints, int drive,
                                       double force_factor, const mjData_& data, mjModel_& model);

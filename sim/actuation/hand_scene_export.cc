@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/base/error.h"
 #include "planner/base/file.h"
 #include "planner/base/number.h"
 #include "planner/kinematics/derive_couplings.h"
@@ -35,10 +37,17 @@ std::string Numbers(std::initializer_list<double> values) {
   return text;
 }
 
+/// Smallest principal moment of inertia of a body, kg m². MuJoCo requires more than 1e-15.
+constexpr double kSmallestInertia = 1e-14;
+
 /// Return the object's body as in the engine: free, at its centroid, with the axes of its frame.
 XmlElement ObjectBody(const object::Polyhedron& solid, double scale, double mass) {
   const object::MassProperties& properties = solid.mass_properties();
   const Matrix3d inertia = mass / properties.volume * scale * scale * properties.inertia;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(inertia, Eigen::EigenvaluesOnly);
+  if (!(principal.eigenvalues().x() > kSmallestInertia)) {
+    throw InputError("the object's mass of " + FormatMass(mass) + " is too small to simulate");
+  }
   return kinematics::MakeElement(
       "body", {{"name", kHandSceneObject}},
       {kinematics::MakeElement("freejoint", {}),

@@ -13,6 +13,7 @@
 #include "planner/plan/projection.h"
 #include "sim/actuation/condition_replays.h"
 #include "sim/actuation/conditions.h"
+#include "sim/actuation/drive_servo.h"
 #include "sim/actuation/hand_replay.h"
 #include "sim/actuation/tip_geometry.h"
 
@@ -149,7 +150,7 @@ ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,
         if (!worst->is_whole) break;
       }
       return worst;
-    } catch (const InputError&) {
+    } catch (const NoActuatorError&) {
       return std::nullopt;
     }
   };

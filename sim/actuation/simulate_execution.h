@@ -28,7 +28,8 @@ enum class PlanningRobustness {
 ///
 /// @param solid  object; must outlive the function.
 /// @returns a function that stops after the present step at its deadline, and returns nullopt if
-///     the hand's model cannot be simulated.
+///     an independent joint of the hand has no actuator. It throws InputError if the hand's model
+///     or the object's mass cannot be simulated for another reason.
 [[nodiscard]] std::function<std::optional<planning::ExecutionResult>(const plan::Plan&,
                                                                      const Deadline&)>
 ExecutionSimulator(kinematics::HandFile file, const object::Polyhedron& solid,

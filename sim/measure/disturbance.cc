@@ -43,7 +43,7 @@ std::string DisturbanceText(const Disturbance& disturbance, double size, double 
   constexpr int kDigits = 2;
   const std::string axis = AxisName(disturbance);
   return disturbance.turn
-             ? "a twist of " + FormatShort(size * radius, kDigits) + " N·m about " + axis
+             ? "a torque of " + FormatShort(size * radius, kDigits) + " N·m about " + axis
              : "a disturbance force of " + FormatShort(size, kDigits) + " N along " + axis;
 }
 

@@ -61,7 +61,7 @@ TEST_F(HandSensorsTest, WithoutFeedbackNothingArrives) {
   EXPECT_TRUE(Run(blind, 0.5).empty());
 }
 
-/// The fingertips are in the air, where the force is exactly 0.
+/// The object is far away, so the force is exactly 0.
 TEST_F(HandSensorsTest, WithoutForceNoThresholdIsReached) {
   HandWorld world(hand_, solid(), kScale, {.mu = kMu, .mass_kg = kMass});
   plan::HandState away = plan_.hand->initial;
