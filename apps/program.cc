@@ -101,6 +101,12 @@ bool IsShortNumber(const std::string& word) {
          word.find_first_not_of("0123456789", 2) == std::string::npos;
 }
 
+/// Return whether a word is like "-z" or "-y,up,30": a direction, and not an option.
+bool IsDirection(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' && word[1] >= 'x' && word[1] <= 'z' &&
+         (word.size() == 2 || word[2] == ',');
+}
+
 /// Check the names of options before CLI11 reports missing ones.
 /// @throws InputError  if there is no such option, or as CheckValue.
 void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
@@ -123,6 +129,10 @@ void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
     if (known != options.end()) {
       const auto rest = words.subspan(i + 1);
       const auto next = std::ranges::find_if(rest, IsOption) - rest.begin();
+      if (name == given && !known->type.empty() && !rest.empty() && IsDirection(rest.front())) {
+        throw InputError(name + ": a value with a leading minus sign requires " + name + "=" +
+                         rest.front());
+      }
       if (name == given) CheckValue(*known, rest.first(next));
       if (given.size() == name.size() + 1) FailEmpty(*known);  // "--output="
       continue;

@@ -32,7 +32,7 @@ std::string GraspForceText(const sim::ReplaySettings& settings) {
       }
       return grasp_force + ": " + FormatShort(sim::kGripSafety) + " × what the weight requires";
     case sim::GraspForceSource::kTorques:
-      return grasp_force + ": chosen by weight, torques and stability";
+      return grasp_force + ": by weight, torques and stability";
     case sim::GraspForceSource::kGiven:
       return grasp_force + ": given by --grasp-force";
   }

@@ -210,9 +210,9 @@ std::optional<FailureCause> RollOff(const SearchEvidence& evidence) {
                                                " failed simulations"};
 }
 
-std::string SearchedText(const SearchEvidence& evidence) {
+std::string SearchedText(const GaitRequest& request, const SearchEvidence& evidence) {
   return "in all searches " + CountText(evidence.counts.expanded, "stance") + " expanded from " +
-         CountText(evidence.searches, "initial pose") + ", " +
+         CountText(evidence.searches, SearchNoun(request)) + ", " +
          FormatShort(100 * evidence.farthest, 3) + " % of the path reached";
 }
 
@@ -220,6 +220,10 @@ std::string SearchedText(const SearchEvidence& evidence) {
 
 std::string CountText(std::int64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string SearchNoun(const GaitRequest& request) {
+  return request.start_pose ? "attempt" : "initial pose";
 }
 
 void SearchEvidence::Add(const std::vector<GaitCounts>& of_poses, bool counts_reach) {
@@ -271,9 +275,9 @@ std::vector<FailureCause> LikelyCauses(const HandSetup& setup, const GaitRequest
   add(OutOfReach(setup, evidence));
   add(AlwaysRequired(*request.hand, evidence.counts));
   add(RollOff(evidence));
-  if (request.deadline.IsOver()) add(FailureCause{"time-limit", SearchedText(evidence)});
+  if (request.deadline.IsOver()) add(FailureCause{"time-limit", SearchedText(request, evidence)});
   if (causes.empty() && evidence.searches > 0)
-    add(FailureCause{"search-budget", SearchedText(evidence)});
+    add(FailureCause{"search-budget", SearchedText(request, evidence)});
   return causes;
 }
 

@@ -15,6 +15,9 @@ namespace regrasp::gait {
 /// Return a count with its noun: "1 grasp", "2 grasps".
 [[nodiscard]] std::string CountText(std::int64_t count, const std::string& noun);
 
+/// Return the noun for the searches of a request: "initial pose", or "attempt" if that is given.
+[[nodiscard]] std::string SearchNoun(const GaitRequest& request);
+
 /// Counts of all searches of a request that found no gait.
 struct SearchEvidence {
   /// Tracks from the initial poses of the search with the smallest seed, and that seed.

@@ -90,7 +90,7 @@ std::string FailureSummary(const GaitRequest& request, const std::vector<GaitCou
   const GaitCounts& best = *std::ranges::max_element(
       counts, {}, [](const GaitCounts& one) { return std::pair(one.fraction(), one.evaluated); });
   std::string text = ProgressText(request, best) + "; the best of " +
-                     CountText(std::ssize(counts), "initial pose") + " has " +
+                     CountText(std::ssize(counts), SearchNoun(request)) + " has " +
                      CountText(best.evaluated, "grasp");
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/base/json.h"
 #include "planner/base/number.h"
 #include "report/goal_table.h"
 #include "report/page/step_plot.h"
@@ -390,17 +391,28 @@ Element ConditionBars(const sim::ConditionSummary& summary) {
   return svg;
 }
 
+/// Return the changes of a condition as text: "pose_delay_s 0.05, pose_rate_Hz 30".
+std::string ChangesText(const sim::HandCondition& condition) {
+  const Json changes = ParseJson(condition.changes, condition.name);
+  std::string text;
+  for (const auto& [name, value] : changes.items()) {
+    text += (text.empty() ? "" : ", ") + name + " " +
+            (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text;
+}
+
 Element ConditionRow(const sim::ConditionResult& result) {
   const bool failed = result.applies && !result.passed();
   Element row("tr", failed ? Attributes{{"class", "fail"}} : Attributes());
-  row.Add(Element("td", {}, result.condition.name));
-  row.Add(Element("td", {}, result.condition.changes));
+  row.Add(Element("td", {{"class", "option"}}, result.condition.name));
+  row.Add(Element("td", {}, ConditionVerdictText(result)));
   row.Add(NumberCell(result.failed.valid() ? std::to_string(result.failed) : "–"));
   row.Add(NumberCell(result.applies ? LengthText(result.end_m) : "–"));
   row.Add(NumberCell(result.applies ? FormatDegrees(Degrees(result.end_rad)) : "–"));
   row.Add(NumberCell(result.ends_within ? "yes" : "no"));
   row.Add(NumberCell(result.applies ? NumberText(result.margin) : "–"));
-  row.Add(Element("td", {}, ConditionVerdictText(result)));
+  row.Add(Element("td", {}, ChangesText(result.condition)));
   return row;
 }
 
@@ -408,12 +420,12 @@ Element ConditionRow(const sim::ConditionResult& result) {
 
 std::vector<Element> MakeConditionSection(const Report& report) {
   if (!report.conditions) return {};
-  std::vector<Element> head = {HeadCell("Condition", ""), HeadCell("Changes", "")};
+  std::vector<Element> head = {HeadCell("Condition", ""), HeadCell("Verdict", "")};
   for (const Element& cell :
        HeadCells({"Fails in step", "End off by", "and by", "Within tolerance", "Margin"})) {
     head.push_back(cell);
   }
-  head.push_back(HeadCell("Verdict", ""));
+  head.push_back(HeadCell("Changes", ""));
   std::vector<Element> rows;
   for (const sim::ConditionResult& result : report.conditions->results) {
     rows.push_back(ConditionRow(result));

@@ -130,9 +130,9 @@ class Page {
   [[nodiscard]] std::string Statement() const {
     if (failed_) return FailureStatement();
     const auto failure = DescribeFailure(report_);
-    if (!failure) return StepsStatement();
+    if (!failure) return Capitalized(StepsStatement());
     return Capitalized(failure->what) + "." + CauseAndFix(failure->why, failure->suggested_fix) +
-           "\nIn the nominal replay: " + StepsStatement();
+           "\nIn the nominal replay, " + StepsStatement();
   }
 
   [[nodiscard]] std::string StepsStatement() const {
@@ -142,9 +142,9 @@ class Page {
         " of friction, and in the replay the object resisted a force and a torque of " +
         NumberText(100 * settings.disturbance_ratio) +
         " % of the grasp force along every axis, in both directions";
-    if (report_.grasp) return "The grasp is force closure" + what + ".";
+    if (report_.grasp) return "the grasp is force closure" + what + ".";
     const std::string steps = std::to_string(plan_.steps.size());
-    return "The hold and " +
+    return "the hold and " +
            (plan_.steps.size() == 1 ? "the one step" : "all " + steps + " steps") +
            " pass: every grasp along them is " + StabilityText(report_) + what +
            ", in every static grasp.";

@@ -101,6 +101,11 @@ class HandInputs(ProgramCase):
         self.assert_refused(2, "/goals/0/name: expected a name without control characters",
                             *self.plan("--goals", "goals.json"))
 
+    def test_a_leading_minus_sign_requires_an_equals_sign(self):
+        for option, value in (("--gravity", "-z"), ("--turn", "-z,30"), ("--goal-facing", "-y,up,30")):
+            self.assert_refused(2, f"{option}: a value with a leading minus sign requires {option}={value}",
+                                *self.plan(option, value))
+
     def test_a_rated_plan_requires_time(self):
         command = [word for word in self.turn(30, "--optimize", "margin", "--time-limit", "3") if word != "--quiet"]
         done = self.assert_done(*command)
