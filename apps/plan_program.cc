@@ -132,7 +132,7 @@ planning::GraspChoice PlanProgram::Choose(const PlanEnd& end, const object::Obje
     try {
       return {Kind::kGiven, plan::ParseGrasp(end.text, end.name, object), end.name};
     } catch (const InputError&) {
-      if (&end != &start || !continues_rolled) throw;
+      if (end.name != start.name || !continues_rolled) throw;
       throw InputError("--continue: " + hand.continue_plan +
                        ": the plan ends with a rolled contact on an edge of the object, expected "
                        "contacts on faces; help: plan its last part without --rolling on");

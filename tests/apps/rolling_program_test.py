@@ -54,6 +54,19 @@ class Rolling(ProgramCase):
                 farthest = max(farthest, plan["object"]["scale"] * distance(first["point"], last["point"]))
         self.assertGreater(farthest, 1e-3)
 
+    def test_a_plan_that_ends_on_an_edge_is_not_continued(self):
+        """A normal between those of two faces of the cube is no contact of a grasp."""
+        arguments = ("--object", self.model("cube.obj"), "--mu", "0.8", "--hand", self.ring)
+        for seed in range(3, 12):
+            self.assert_done(*arguments, "--turn", "x,60", "--rolling", "on", "--seed", str(seed), "--output", "edge.json")
+            contacts = json.loads(self.read("edge.json"))["steps"][-1]["contacts"][-1]
+            if any(max(map(abs, contact["normal"])) < 0.99 for contact in contacts):
+                break
+        else:
+            self.fail("no plan ends on an edge")
+        self.assert_refused(2, "edge.json: the plan ends with a rolled contact on an edge of the object", *arguments,
+                            "--turn", "z,10", "--continue", "edge.json", "--quiet", "--output", "more.json")
+
     def test_actual_contacts_are_those_of_the_plan(self):
         """MuJoCo rolls the fingertips without using the contacts of the plan."""
         largest = {}
