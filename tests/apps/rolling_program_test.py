@@ -55,7 +55,7 @@ class Rolling(ProgramCase):
         self.assertGreater(farthest, 1e-3)
 
     def test_a_plan_that_ends_on_an_edge_is_not_continued(self):
-        """A normal between those of two faces of the cube is no contact of a grasp."""
+        """A contact with a normal between those of two faces of the cube is refused."""
         arguments = ("--object", self.model("cube.obj"), "--mu", "0.8", "--hand", self.ring)
         for seed in range(3, 12):
             self.assert_done(*arguments, "--turn", "x,60", "--rolling", "on", "--seed", str(seed), "--output", "edge.json")
