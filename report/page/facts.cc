@@ -345,7 +345,7 @@ constexpr int kBarHeight = 14;
 constexpr int kRowHeight = 20;
 constexpr int kLabelWidth = 170;
 constexpr int kLimitWidth = 240;  ///< length of a bar at the limit
-constexpr int kChartWidth = 640;
+constexpr int kChartWidth = 760;  ///< with the longest name of a reason
 constexpr int kTopHeight = 24;
 /// Longest bar, as a share of the limit.
 constexpr double kMostShare = 1.8;
