@@ -196,8 +196,7 @@ TEST(ConditionSectionTest, EachConditionHasABarAndARow) {
   EXPECT_THAT(text, HasSubstr("class=\"bar partly\""));
   EXPECT_THAT(text, HasSubstr("a&amp;b"));
   EXPECT_THAT(text, HasSubstr("<td>mass_factor 0.5</td>"));
-  EXPECT_THAT(text, HasSubstr(">icy</td><td>fail: slipped</td>"))
-     ;
+  EXPECT_THAT(text, HasSubstr(">icy</td><td>fail: slipped</td>"));
   // The first bar has half of the length at the limit. A bar has a largest length.
   EXPECT_THAT(text, HasSubstr("width=\"120\""));
   EXPECT_THAT(text, HasSubstr("width=\"432\""));
