@@ -108,7 +108,8 @@ bool IsDirection(const std::string& word) {
 }
 
 /// Check the names of options before CLI11 reports missing ones.
-/// @throws InputError  if there is no such option, or as CheckValue.
+/// @throws InputError  if an option is unknown, if its value is a direction with a leading minus
+///     sign, or as CheckValue.
 void CheckOptions(const CLI::App& app, std::span<const std::string> words) {
   std::vector<OptionHelp> options;
   std::vector<std::string> names;

@@ -258,7 +258,7 @@ def plan_in_hand(object: Object, hand: Hand, mu: float | None = None, *,
             are fixed on the object. Cannot be used with `goal` or the closure "gravity".
         optimize: "steps", or "margin" for the plan that fails under the fewest standard conditions.
         robustness: robustness of the plan. "required" returns only a plan that executes in simulation on
-            the hand's actuators. "preferred" returns a plan that does not if there is no other.
+            the hand's actuators. "preferred" returns a plan that does not, if none is found that does.
             "standard" returns only a plan that also executes with realistic sensors, joint errors of
             0.5° and 20 % less friction. "none" does not simulate.
         clearance: smallest distance of links to each other, palm and object, metres.

@@ -217,7 +217,7 @@ std::vector<Element> MakeStepTable(const Report& report, const plan::Plan& plan,
   const std::vector<Element> head = {
       HeadCell("Step"),  HeadCell("Verdict", ""), HeadCell("Description", ""), HeadCell(kRequired),
       HeadCell(kMargin), HeadCell(kDisplacement), HeadCell(kRotation),         HeadCell(kSlip)};
-  // A hand's disturbance test leaves its measurements to the violated limits.
+  // The disturbance test of a hand replay checks limits, and its deviations are not recorded.
   const bool is_by_hand = report.settings && report.settings->hand;
   std::vector<Element> rows;
   for (const ReportStep& step : report.steps) {

@@ -44,7 +44,7 @@ inline GaitRequest RequestFor(const std::string& model, double scale, double deg
   return request;
 }
 
-/// Fails if there is no simulation result.
+/// Return whether the plan of a result executes. A missing simulation result fails the test.
 inline bool ExecutesInSimulation(const GaitResult& result) {
   EXPECT_TRUE(result.execution) << result.message;
   return result.execution && result.execution->is_whole;

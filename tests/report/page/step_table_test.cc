@@ -24,6 +24,11 @@ Report MakeReport() {
   return report;
 }
 
+/// Return the step table of a report without pictures, with its note.
+std::string TableOf(const Report& report) {
+  return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
+}
+
 TEST(StepTableTest, OnlyAStepWithAPictureLinksToIt) {
   const Report report = MakeReport();
   const std::vector<StepMeasures> measures = MeasureSteps(report);
@@ -34,26 +39,20 @@ TEST(StepTableTest, OnlyAStepWithAPictureLinksToIt) {
 
 TEST(StepTableTest, WhatWasNotReplayedHasNoMotion) {
   Report report = MakeReport();
-  const auto table = [&] {
-    return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
-  };
-  EXPECT_THAT(table(), HasSubstr("data-name=\"Slip\">–</td>"));
-  EXPECT_THAT(table(), HasSubstr("12.50°"));
+  EXPECT_THAT(TableOf(report), HasSubstr("data-name=\"Slip\">–</td>"));
+  EXPECT_THAT(TableOf(report), HasSubstr("12.50°"));
   report.steps[0].replay.emplace();
-  EXPECT_THAT(table(), Not(HasSubstr("data-name=\"Slip\">–</td>")));
+  EXPECT_THAT(TableOf(report), Not(HasSubstr("data-name=\"Slip\">–</td>")));
 }
 
 TEST(StepTableTest, TheNoteStatesWhatHoldsTheObjectAndWhatWasMeasured) {
   Report report = MakeReport();
-  const auto table = [&] {
-    return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
-  };
-  EXPECT_THAT(table(), HasSubstr("every grasp of the step is force closure."));
-  EXPECT_THAT(table(), HasSubstr("and in the disturbance test after it."));
+  EXPECT_THAT(TableOf(report), HasSubstr("every grasp of the step is force closure."));
+  EXPECT_THAT(TableOf(report), HasSubstr("and in the disturbance test after it."));
   report.steps[0].check.is_supported = true;
   report.settings.emplace().hand.emplace();
-  EXPECT_THAT(table(), HasSubstr("is force closure or supported by gravity."));
-  EXPECT_THAT(table(), Not(HasSubstr("disturbance test")));
+  EXPECT_THAT(TableOf(report), HasSubstr("is force closure or supported by gravity."));
+  EXPECT_THAT(TableOf(report), Not(HasSubstr("disturbance test")));
 }
 
 TEST(FingerTableTest, AFingerThatTheOthersCannotDoWithoutSaysNone) {
