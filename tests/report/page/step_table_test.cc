@@ -24,7 +24,7 @@ Report MakeReport() {
   return report;
 }
 
-/// Return the step table of a report without pictures, with its note.
+/// Return the step table of a report without images, and its note.
 std::string TableOf(const Report& report) {
   return Format(MakeStepTable(report, plan::Plan(), MeasureSteps(report), {""}));
 }
