@@ -201,9 +201,16 @@ ShadedMesh MakeBand(const Vector3d& from, const Vector3d& to, double radius, con
                         radius * (std::cos(turn) * u + std::sin(turn) * v + back));
     }
   }
+  // Only full-width triangles run along the band: in narrow ones, depth is not exact enough.
   ShadedMesh band;
-  for (std::size_t i = 2; i < outline.size(); ++i) {
-    band.Add({outline[0], outline[i - 1], outline[i]}, {back, back, back});
+  const auto add = [&](int a, int b, int c) {
+    band.Add({outline[a], outline[b], outline[c]}, {back, back, back});
+  };
+  constexpr int kFar = kBandSides + 1;  // the first corner at the far end
+  add(0, kBandSides, kFar);
+  add(0, kFar, kFar + kBandSides);
+  for (const int first : {0, kFar}) {
+    for (int i = 2; i <= kBandSides; ++i) add(first, first + i - 1, first + i);
   }
   return band;
 }

@@ -105,6 +105,23 @@ TEST(ShadedMeshTest, ABandIsFlatAcrossTheLineOfSightAndAsWideAsItsCapsule) {
   EXPECT_NEAR(widest, 0.05, 1e-12);
 }
 
+// Software rasterizers interpolate depth in long, narrow triangles with errors that let a surface
+// show through.
+TEST(ShadedMeshTest, TrianglesAlongABandHaveItsFullWidth) {
+  const Vector3d back = Vector3d::UnitZ();
+  const ShadedMesh band = MakeBand({0, 0, 0}, {1, 0, 0}, 0.05, back);
+  int along = 0;
+  for (const auto& corners : band.triangles) {
+    const auto [left, right] = std::ranges::minmax(corners, {}, [](const auto& p) { return p.x(); });
+    if (right.x() - left.x() < 0.2) continue;
+    const auto [below, above] =
+        std::ranges::minmax(corners, {}, [](const auto& p) { return p.y(); });
+    EXPECT_NEAR(above.y() - below.y(), 0.1, 1e-12);
+    ++along;
+  }
+  EXPECT_EQ(along, 2);
+}
+
 TEST(ShadedMeshTest, ABandAlongTheLineOfSightIsADisc) {
   const ShadedMesh band = MakeBand({0, 0, 0}, {0, 0, 1}, 0.05, Vector3d::UnitZ());
   for (const auto& corners : band.triangles) {
