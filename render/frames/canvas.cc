@@ -29,6 +29,7 @@ constexpr int kOne = 256;
 /// Opacity of the rims of a veil behind a solid.
 constexpr double kHiddenRimOpacity = 0.35;
 
+/// Clear all samples. With a scissor box it would be much slower.
 void ClearAll() {
   SetMask(true, true);
   gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -47,36 +48,38 @@ void DrawPass(const ShapePainter& painter, const Drawing& drawing, std::span<con
   for (const MeshInstance& mesh : drawing.hiding) painter.Draw(mesh);
   SetMask(true, false);
   painter.DrawOpaque(drawing.outline);
-  gl().Finish();
 }
 
-/// Draw a solid alone, in front of its translucent shapes. The alpha of its samples is 1, and 0
-/// elsewhere.
+/// Draw a solid in front of its translucent shapes. The alpha of its samples is 1.
 void DrawSolid(const ShapePainter& painter, const Solid& solid) {
-  ClearAll();
   painter.BlendTranslucent(solid.shapes);
   SetMask(true, true);
   painter.DrawOpaque(solid.shapes);
 }
 
-/// Draw a solid and the shapes over it even if it hides them. The alpha of its samples is 0 at
-/// opaque shapes and 1 otherwise.
-void DrawXray(const ShapePainter& painter, const Drawing& drawing) {
+/// Draw, in a box, a solid and the shapes over it even if it hides them. The alpha of its samples
+/// is 0 at opaque shapes and 1 otherwise.
+void DrawXray(const ShapePainter& painter, const Drawing& drawing, const PixelBox& box) {
+  ClearAll();
+  gl().Scissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+  gl().Enable(GL_SCISSOR_TEST);
+  gl().DepthRange(0.5, 1);
   DrawSolid(painter, *drawing.solid);
-  gl().Clear(GL_DEPTH_BUFFER_BIT);
+  gl().DepthRange(0, 0.5);
   painter.DrawOpaque(drawing.shapes, /*alpha=*/false);
   painter.BlendTranslucent(drawing.shapes);
-  gl().Finish();
+  gl().DepthRange(0, 1);
+  gl().Disable(GL_SCISSOR_TEST);
 }
 
 /// Draw a solid with the shapes in front of it. The alpha of visible samples of the solid is 1, and
 /// 0 elsewhere.
 void DrawWithSolid(const ShapePainter& painter, const Drawing& drawing) {
+  ClearAll();
   DrawSolid(painter, *drawing.solid);
   SetMask(true, true);
   painter.DrawOpaque(drawing.shapes, /*alpha=*/false);
   painter.BlendTranslucent(drawing.shapes);
-  gl().Finish();
 }
 
 /// Return an opacity whose alpha is odd for a rim that shines through and even for other shapes.
@@ -104,7 +107,6 @@ void DrawVeil(const ShapePainter& painter, const Veil& veil) {
   for (const Shape& shape : veil.rims) draw(shape, false);
   for (const Shape& shape : veil.xray_rims) draw(shape, true);
   gl().DepthFunc(GL_LEQUAL);
-  gl().Finish();
 }
 
 /// Set the alpha of a veil, which is the present image, to 0 where opaque shapes or the solid hide
@@ -121,7 +123,6 @@ void HideVeil(const ShapePainter& painter, const Drawing& drawing) {
   gl().BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl().DepthFunc(GL_LEQUAL);
   SetMask(true, true);
-  gl().Finish();
 }
 
 /// Return the weights of the image without layer and of the images with each layer. Their sum is
@@ -136,12 +137,6 @@ std::vector<int> WeightsOf(const std::vector<Layer>& layers) {
   }
   weights.insert(weights.begin(), left);
   return weights;
-}
-
-/// Restrict drawing to a box.
-void SetScissor(const SampleBox& box) {
-  gl().Scissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
-  gl().Enable(GL_SCISSOR_TEST);
 }
 
 /// Return for each mesh triangles with the corners of its bounding box.
@@ -201,45 +196,42 @@ class Canvas::Impl {
   }
 
  private:
-  /// Return a copy of the present samples.
-  [[nodiscard]] std::vector<unsigned char> CopySamples(const SampleBand& band) const {
-    std::vector<unsigned char> copy;
-    CopySamples(band, {0, 0, band.width, band.rows}, copy);
-    return copy;
+  /// Read the present samples of a band into a buffer.
+  static void Read(const SampleBand& band, std::vector<unsigned char>& samples) {
+    Read(band, {0, 0, band.width, band.rows}, samples);
   }
-  /// Copy the present samples of a box to a buffer of the size of the band.
-  void CopySamples(const SampleBand& band, const SampleBox& box,
-                   std::vector<unsigned char>& copy) const {
-    copy.resize(std::size_t{4} * band.width * band.rows);
-    for (int y = box.bottom; y < box.top; ++y) {
-      const std::size_t row = std::size_t(y) * band.width;
-      std::copy_n(context_.pixels().data() + 4 * (row + box.left),
-                  std::size_t{4} * (box.right - box.left), copy.data() + 4 * (row + box.left));
-    }
+  /// Read the present samples of a box into a buffer of the size of the band.
+  static void Read(const SampleBand& band, const PixelBox& box,
+                   std::vector<unsigned char>& samples) {
+    samples.resize(std::size_t{4} * band.width * band.rows);
+    ReadPixels(box, band.width, samples.data());
   }
 
   /// Compose the samples of a drawing with a solid, in the box that contains the drawing.
   const std::vector<unsigned char>& ComposeSolid(const ShapePainter& painter,
                                                  const Drawing& drawing, const SampleBand& band,
-                                                 const SampleBox& box) {
-    SetScissor(box);
+                                                 const PixelBox& box) {
+    DrawWithSolid(painter, drawing);
+    Read(band, box, samples_);
+    const PixelBox solid = VisibleBox(samples_, band, box);
+    if (!solid.empty()) {
+      DrawXray(painter, drawing, solid);
+      Read(band, solid, xray_);
+    }
     if (drawing.veil) {
       DrawVeil(painter, *drawing.veil);
-      CopySamples(band, box, rims_);
+      Read(band, solid, rims_);
       HideVeil(painter, drawing);
-      CopySamples(band, box, veil_);
+      Read(band, box, veil_);
       FadeInWindows(drawing.veil->windows, band, box, veil_);
     }
-    DrawWithSolid(painter, drawing);
-    CopySamples(band, box, samples_);
-    LayXray(painter, drawing, band, box);
+    LayXray(drawing, band, solid);
     if (drawing.veil) LayVisible(veil_, band, box, samples_);
-    gl().Disable(GL_SCISSOR_TEST);
     return samples_;
   }
 
   /// Return the pixels of a band that a drawing with a solid can change, as samples.
-  [[nodiscard]] SampleBox BoxOf(const Camera& camera, const Drawing& drawing,
+  [[nodiscard]] PixelBox BoxOf(const Camera& camera, const Drawing& drawing,
                                 const SampleBand& band) const {
     ProjectedExtent extent(camera.axes, bounds_);
     const auto add = [&extent](const std::vector<Shape>& shapes) {
@@ -268,71 +260,63 @@ class Canvas::Impl {
     };
     const Eigen::Vector2d first = pixels.min().array().floor() - kBoxMargin;
     const Eigen::Vector2d last = pixels.max().array().ceil() + kBoxMargin;
-    SampleBox box = {clamp(first.x(), width_), rows - clamp(last.y() - top, rows),
+    PixelBox box = {clamp(first.x(), width_), rows - clamp(last.y() - top, rows),
                      clamp(last.x(), width_), rows - clamp(first.y() - top, rows)};
     for (int* limit : {&box.left, &box.bottom, &box.right, &box.top}) *limit *= factor_;
     return box;
   }
 
-  /// Lay the X-ray image over the visible samples of the solid. It is drawn only there. It has
-  /// rims of a veil (Veil::xray_rims), even if the solid hides them.
-  void LayXray(const ShapePainter& painter, const Drawing& drawing, const SampleBand& band,
-               const SampleBox& within) {
-    const SampleBox box = VisibleBox(samples_, band, within);
-    if (box.empty()) return;
-    SetScissor(box);
-    DrawXray(painter, drawing);
-    const unsigned char* seen = context_.pixels().data();
+  /// Lay the X-ray image over the visible samples of the solid. It has rims of a veil
+  /// (Veil::xray_rims), even if the solid hides them.
+  void LayXray(const Drawing& drawing, const SampleBand& band, const PixelBox& box) {
     const auto share = static_cast<int>(std::lround(kFullAlpha * drawing.solid->xray));
     const auto rim = static_cast<int>(std::lround(kFullAlpha * kHiddenRimOpacity));
     for (int y = box.bottom; y < box.top; ++y) {
       const std::size_t row = std::size_t(y) * band.width;
       for (std::size_t i = 4 * (row + box.left); i < 4 * (row + box.right); i += 4) {
         if (samples_[i + 3] == 0) continue;
-        std::array<unsigned char, 4> xray;
-        std::copy_n(&seen[i], xray.size(), xray.begin());
-        const bool has_rim = drawing.veil && xray[3] != 0 && IsRim(&rims_[i]);
-        if (has_rim) Lay(&rims_[i], rim, xray.data());
-        Lay(xray.data(), share, &samples_[i]);
+        const bool has_rim = drawing.veil && xray_[i + 3] != 0 && IsRim(&rims_[i]);
+        if (has_rim) Lay(&rims_[i], rim, &xray_[i]);
+        Lay(&xray_[i], share, &samples_[i]);
       }
     }
   }
 
   /// Compose the samples of layers with a veil.
-  std::vector<unsigned char> ComposeLayers(const ShapePainter& painter, const Drawing& drawing,
-                                           const SampleBand& band) const {
+  const std::vector<unsigned char>& ComposeLayers(const ShapePainter& painter,
+                                                  const Drawing& drawing, const SampleBand& band) {
     std::vector<Shape> all = drawing.veil->rims;
     all.insert(all.end(), drawing.veil->xray_rims.begin(), drawing.veil->xray_rims.end());
     all.insert(all.end(), drawing.veil->shapes.begin(), drawing.veil->shapes.end());
     DrawPass(painter, drawing, all);
-    std::vector<unsigned char> veil = CopySamples(band);
-    FadeInWindows(drawing.veil->windows, band, {0, 0, band.width, band.rows}, veil);
+    Read(band, veil_);
+    FadeInWindows(drawing.veil->windows, band, {0, 0, band.width, band.rows}, veil_);
     // Samples in front of the covers keep their alpha.
     SetMask(false, true);
     gl().Color4ub(0, 0, 0, 0);
     for (const MeshInstance& cover : drawing.veil->covers) painter.Draw(cover);
     SetMask(true, true);
-    gl().Finish();
-    const unsigned char* seen = context_.pixels().data();
-    std::vector<bool> over(veil.size() / 4);
-    for (std::size_t i = 0; i < over.size(); ++i) over[i] = seen[4 * i + 3] != 0;
+    Read(band, layer_);
+    std::vector<bool> over(veil_.size() / 4);
+    for (std::size_t i = 0; i < over.size(); ++i) over[i] = layer_[4 * i + 3] != 0;
     DrawPass(painter, drawing, {});
-    std::vector<unsigned char> samples = CopySamples(band);
+    Read(band, samples_);
     const auto lay_veil = [&](bool where_over) {
       for (std::size_t i = 0; i < over.size(); ++i) {
-        if (over[i] == where_over) Lay(&veil[4 * i], veil[4 * i + 3], &samples[4 * i]);
+        if (over[i] == where_over) Lay(&veil_[4 * i], veil_[4 * i + 3], &samples_[4 * i]);
       }
     };
     lay_veil(false);
     for (const Layer& layer : drawing.layers) {
       DrawPass(painter, drawing, layer.shapes);
+      Read(band, layer_);
       const auto opacity = static_cast<int>(std::lround(kFullAlpha * layer.opacity));
       for (std::size_t i = 0; i < over.size(); ++i) {
-        if (seen[4 * i + 3] != 0) Lay(&seen[4 * i], opacity, &samples[4 * i]);
+        if (layer_[4 * i + 3] != 0) Lay(&layer_[4 * i], opacity, &samples_[4 * i]);
       }
     }
     lay_veil(true);
-    return samples;
+    return samples_;
   }
 
   void Init() {
@@ -352,7 +336,7 @@ class Canvas::Impl {
     };
     if (drawing.solid) {
       const std::uint32_t full = kOne * factor_ * factor_;
-      const SampleBox box = BoxOf(camera, drawing, samples);
+      const PixelBox box = BoxOf(camera, drawing, samples);
       FillOutside(box, samples, {full * paper.r, full * paper.g, full * paper.b}, sums);
       if (!box.empty()) {
         AddSamples(ComposeSolid(painter, drawing, samples, box).data(), samples, box, kOne, sums);
@@ -364,7 +348,8 @@ class Canvas::Impl {
       for (std::size_t i = 0; i < weights.size(); ++i) {
         DrawPass(painter, drawing,
                  i == 0 ? std::span<const Shape>() : drawing.layers[i - 1].shapes);
-        add(context_.pixels().data(), weights[i]);
+        Read(samples, layer_);
+        add(layer_.data(), weights[i]);
       }
     }
     const auto write = [&](const auto& mean) {
@@ -386,7 +371,8 @@ class Canvas::Impl {
   std::shared_ptr<const std::vector<VertexArrays>>
       meshes_;  ///< vertex arrays of the meshes, shared with copies
   OffscreenContext context_;
-  std::vector<unsigned char> samples_, veil_, rims_;  ///< buffers of ComposeSolid
+  // Buffers of samples.
+  std::vector<unsigned char> samples_, veil_, rims_, xray_, layer_;
 };
 
 Canvas::Canvas(const std::vector<ShadedMesh>& meshes, int width, int height, int supersampling)

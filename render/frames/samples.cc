@@ -23,7 +23,7 @@ std::uint32_t MixPair(std::uint32_t color, std::uint32_t sample, std::uint32_t a
 
 }  // namespace
 
-void AddSamples(const unsigned char* samples, const SampleBand& band, const SampleBox& box,
+void AddSamples(const unsigned char* samples, const SampleBand& band, const PixelBox& box,
                 int weight, std::vector<std::uint32_t>& sums) {
   const int row = 4 * (box.right - box.left);
   std::vector<std::uint16_t> column(row);  // sums over the sample rows of one pixel row
@@ -46,7 +46,7 @@ void AddSamples(const unsigned char* samples, const SampleBand& band, const Samp
   }
 }
 
-void FillOutside(const SampleBox& box, const SampleBand& band,
+void FillOutside(const PixelBox& box, const SampleBand& band,
                  const std::array<std::uint32_t, 3>& color, std::vector<std::uint32_t>& sums) {
   const int width = band.width / band.factor, rows = band.rows / band.factor;
   const int left = box.left / band.factor, right = box.right / band.factor;
@@ -60,9 +60,9 @@ void FillOutside(const SampleBox& box, const SampleBand& band,
   }
 }
 
-SampleBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band,
-                     const SampleBox& within) {
-  SampleBox box = {band.width, band.rows, 0, 0};
+PixelBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band,
+                     const PixelBox& within) {
+  PixelBox box = {band.width, band.rows, 0, 0};
   for (int y = within.bottom; y < within.top; ++y) {
     const unsigned char* row = samples.data() + std::size_t{4} * band.width * y;
     int left = within.left;
@@ -86,7 +86,7 @@ void Lay(const unsigned char* color, int alpha, unsigned char* sample) {
 }
 
 void LayVisible(const std::vector<unsigned char>& image, const SampleBand& band,
-                const SampleBox& box, std::vector<unsigned char>& samples) {
+                const PixelBox& box, std::vector<unsigned char>& samples) {
   for (int y = box.bottom; y < box.top; ++y) {
     const std::size_t row = std::size_t(y) * band.width;
     for (std::size_t i = 4 * (row + box.left); i < 4 * (row + box.right); i += 4) {
@@ -95,7 +95,7 @@ void LayVisible(const std::vector<unsigned char>& image, const SampleBand& band,
   }
 }
 
-void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band, const SampleBox& box,
+void FadeInWindows(const std::vector<Window>& windows, const SampleBand& band, const PixelBox& box,
                    std::vector<unsigned char>& samples) {
   for (const Window& window : windows) {
     const Eigen::Vector2d centre = band.factor * window.centre - Eigen::Vector2d(0, band.top);

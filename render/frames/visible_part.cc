@@ -90,6 +90,7 @@ ShelledMesh VisiblePart(const ShelledMesh& shelled, std::span<const Vector3d> ey
   const VertexArrays shell(Numbered(shelled.shell, centre, 1 + count), /*shared=*/false);
   // Color 0 is the background.
   const auto is_seen = std::make_unique<bool[]>(1 + 2 * count);
+  std::vector<unsigned char> pixels(std::size_t{4} * side * side);
   const OffscreenContext::Use use(context);
   InitState();
   gl().Disable(GL_LIGHTING);
@@ -103,12 +104,9 @@ ShelledMesh VisiblePart(const ShelledMesh& shelled, std::span<const Vector3d> ey
     gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     mesh.Draw();
     shell.Draw();
-    gl().Finish();
-    for (int y = 0; y < side; ++y) {
-      const unsigned char* seen = context.pixels().data() + std::size_t{4} * kVisibleSide * y;
-      for (const unsigned char* end = seen + 4 * side; seen != end; seen += 4) {
-        is_seen[seen[0] | seen[1] << 8 | seen[2] << 16] = true;
-      }
+    ReadPixels({0, 0, side, side}, side, pixels.data());
+    for (auto seen = pixels.begin(); seen != pixels.end(); seen += 4) {
+      is_seen[seen[0] | seen[1] << 8 | seen[2] << 16] = true;
     }
   }
   return {SeenPartAndNeighbours(shelled.mesh, {&is_seen[1], count}),
