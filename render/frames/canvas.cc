@@ -232,7 +232,7 @@ class Canvas::Impl {
 
   /// Return the pixels of a band that a drawing with a solid can change, as samples.
   [[nodiscard]] PixelBox BoxOf(const Camera& camera, const Drawing& drawing,
-                                const SampleBand& band) const {
+                               const SampleBand& band) const {
     ProjectedExtent extent(camera.axes, bounds_);
     const auto add = [&extent](const std::vector<Shape>& shapes) {
       for (const Shape& shape : shapes) extent.Add(shape.form);
@@ -261,7 +261,7 @@ class Canvas::Impl {
     const Eigen::Vector2d first = pixels.min().array().floor() - kBoxMargin;
     const Eigen::Vector2d last = pixels.max().array().ceil() + kBoxMargin;
     PixelBox box = {clamp(first.x(), width_), rows - clamp(last.y() - top, rows),
-                     clamp(last.x(), width_), rows - clamp(first.y() - top, rows)};
+                    clamp(last.x(), width_), rows - clamp(first.y() - top, rows)};
     for (int* limit : {&box.left, &box.bottom, &box.right, &box.top}) *limit *= factor_;
     return box;
   }

@@ -45,9 +45,7 @@ const Gl& gl() {
 }
 
 OffscreenContext::OffscreenContext(int width, int height)
-    : width_(width),
-      height_(height),
-      context_(CreateContext()) {
+    : width_(width), height_(height), context_(CreateContext()) {
   if (context_ == nullptr)
     throw EnvironmentError("off-screen rendering context (OSMesa) cannot be created");
   try {

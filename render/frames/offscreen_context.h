@@ -71,7 +71,8 @@ class OffscreenContext {
 
 /// Read the RGBA values of a box of the present framebuffer.
 /// @param row_pixels  width of the image `to`.
-/// @param to          image of at least box.top rows, from bottom to top. The box has the same place
+/// @param to          image of at least box.top rows, from bottom to top. The box has the same
+/// place
 ///                    there.
 void ReadPixels(const PixelBox& box, int row_pixels, unsigned char* to);
 

@@ -61,7 +61,7 @@ void FillOutside(const PixelBox& box, const SampleBand& band,
 }
 
 PixelBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band,
-                     const PixelBox& within) {
+                    const PixelBox& within) {
   PixelBox box = {band.width, band.rows, 0, 0};
   for (int y = within.bottom; y < within.top; ++y) {
     const unsigned char* row = samples.data() + std::size_t{4} * band.width * y;

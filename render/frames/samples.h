@@ -27,8 +27,8 @@ void AddSamples(const unsigned char* samples, const SampleBand& band, const Pixe
                 int weight, std::vector<std::uint32_t>& sums);
 
 /// Return the smallest box that contains all samples of `within` whose alpha is not 0.
-[[nodiscard]] PixelBox VisibleBox(const std::vector<unsigned char>& samples,
-                                   const SampleBand& band, const PixelBox& within);
+[[nodiscard]] PixelBox VisibleBox(const std::vector<unsigned char>& samples, const SampleBand& band,
+                                  const PixelBox& within);
 
 /// Lay a colour over a sample, whose alpha changes too.
 void Lay(const unsigned char* color, int alpha, unsigned char* sample);

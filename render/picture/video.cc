@@ -394,6 +394,8 @@ class Mp4 : public Video {
                   {{"preset", "faster"},
                    {"tune", "animation"},
                    {"mbtree", "0"},
+                   // Half of the time of the encoder, without a smaller file.
+                   {"x264-params", "trellis=0"},
                    {"crf", kRateFactor}}}) {}
 
   std::string Finish() override { return encoder_.Finish(); }

@@ -112,7 +112,8 @@ TEST(ShadedMeshTest, TrianglesAlongABandHaveItsFullWidth) {
   const ShadedMesh band = MakeBand({0, 0, 0}, {1, 0, 0}, 0.05, back);
   int along = 0;
   for (const auto& corners : band.triangles) {
-    const auto [left, right] = std::ranges::minmax(corners, {}, [](const auto& p) { return p.x(); });
+    const auto [left, right] =
+        std::ranges::minmax(corners, {}, [](const auto& p) { return p.x(); });
     if (right.x() - left.x() < 0.2) continue;
     const auto [below, above] =
         std::ranges::minmax(corners, {}, [](const auto& p) { return p.y(); });
