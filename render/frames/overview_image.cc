@@ -120,12 +120,14 @@ void OverviewImage::Add(const Image& image, const OverviewLabel& label) {
   if (image.width != width_ || image.height != height_) {
     throw std::invalid_argument("OverviewImage: all images must have the announced size");
   }
-  const int cell = TakeCell(label);
-  DrawImage(grid_.x(cell), grid_.y(cell) + grid_.label, image, label);
+  OverviewLabel left = label;
+  const int cell = TakeCell(left);
+  DrawImage(grid_.x(cell), grid_.y(cell) + grid_.label, image, left);
 }
 
 void OverviewImage::AddEmpty(const OverviewLabel& label, const std::string& text) {
-  const int cell = TakeCell(label);
+  OverviewLabel left = label;
+  const int cell = TakeCell(left);
   const Eigen::Vector2d corner(grid_.x(cell), grid_.y(cell) + grid_.label);
   const Eigen::Vector2d size(grid_.width, grid_.height);
   cairo_t* cr = image_->context();
@@ -152,7 +154,7 @@ void OverviewImage::DrawHeading(const OverviewLabel& heading) {
   cairo_show_text(cr, title.c_str());
 }
 
-int OverviewImage::TakeCell(const OverviewLabel& label) {
+int OverviewImage::TakeCell(OverviewLabel& label) {
   if (added_ == count_) {
     throw std::invalid_argument("OverviewImage: more images than the announced number");
   }
@@ -164,10 +166,18 @@ int OverviewImage::TakeCell(const OverviewLabel& label) {
   cairo_move_to(cr, x, base);
   cairo_show_text(cr, label.title.c_str());
   SetColor(cr, label.color);
-  const double left = grid_.width - TextWidth(cr, label.title) - grid_.font;
-  const std::string verdict = Elide(cr, label.verdict, left);
-  cairo_move_to(cr, x + grid_.width - TextWidth(cr, verdict), base);
+  const double begin = TextWidth(cr, label.title) + grid_.font;
+  const std::string verdict = Elide(cr, label.verdict, grid_.width - begin);
+  const double end = grid_.width - TextWidth(cr, verdict);
+  cairo_move_to(cr, x + end, base);
   cairo_show_text(cr, verdict.c_str());
+  SelectFont(cr, kNoteFont * grid_.font, /*bold=*/false);
+  if (!label.note.empty() && begin + TextWidth(cr, label.note) + grid_.font < end) {
+    SetColor(cr, ground_.ink);
+    cairo_move_to(cr, x + begin, base);
+    cairo_show_text(cr, label.note.c_str());
+    label.note.clear();
+  }
   return added_++;
 }
 

@@ -14,8 +14,10 @@ struct OverviewLabel {
   std::string title;    ///< text at the left, for example "3 switch"
   std::string verdict;  ///< text at the right in `color`, for example "pass"
   Color color = kInk;
-  bool framed = false;    ///< whether the image has a thick frame in `color`
-  std::string note = {};  ///< small text at the top left of the image; empty for none
+  bool framed = false;  ///< whether the image has a thick frame in `color`
+  /// Small text between title and verdict, or at the top left of the image if it does not fit
+  /// there; empty for none.
+  std::string note = {};
 };
 
 /// Default, minimum and maximum width of an overview, pixels.
@@ -74,7 +76,8 @@ class OverviewImage {
  private:
   void DrawHeading(const OverviewLabel& heading);
   /// Draw the label of the next cell and return its index.
-  int TakeCell(const OverviewLabel& label);
+  /// @param label  its note becomes empty if it is drawn.
+  int TakeCell(OverviewLabel& label);
   void DrawImage(int x, int y, const Image& image, const OverviewLabel& label);
   void DrawNote(int x, int y, const std::string& note);
 

@@ -58,23 +58,32 @@ TEST(OverviewImageTest, AFailureIsFramedAndLaterCellsAreGrey) {
   EXPECT_GT(Count(draw(true), 238, 240, 244), 320 * 240 * 9 / 10);
 }
 
-TEST(OverviewImageTest, ANoteIsAtTheTopLeftOfItsImage) {
-  const auto draw = [](const std::string& note) {
+/// Return the rows of an overview of one image that a note changes: the first and the last.
+std::pair<int, int> RowsOfNote(const std::string& title) {
+  const auto draw = [&](const std::string& note) {
     OverviewImage sheet(1, 640, 480);
-    sheet.Add(MakeFlat(640, 480, 200), {"", "", kInk, false, note});
+    sheet.Add(MakeFlat(640, 480, 200), {title, "pass", kInk, false, note});
     return sheet.ToImage();
   };
   const Image plain = draw(""), marked = draw("smallest friction margin: 3.1°");
-  int left_top = 0, elsewhere = 0;
-  for (int y = 0; y < plain.height; ++y) {
-    for (int x = 0; x < plain.width; ++x) {
-      const std::size_t i = 3 * (std::size_t(y) * plain.width + x);
-      if (plain.rgb[i] == marked.rgb[i]) continue;
-      (x < plain.width * 2 / 3 && y < plain.height / 4 ? left_top : elsewhere) += 1;
-    }
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < plain.rgb.size(); i += 3) {
+    if (plain.rgb[i] != marked.rgb[i]) rows.push_back(static_cast<int>(i / 3 / plain.width));
   }
-  EXPECT_GT(left_top, 200);
-  EXPECT_EQ(elsewhere, 0);
+  EXPECT_GT(rows.size(), 200U);
+  return {rows.front(), rows.back()};
+}
+
+TEST(OverviewImageTest, ANoteIsInTheLabelIfItFits) {
+  const OverviewGrid grid(1, 640, 480, kOverviewWidth);
+  EXPECT_LT(RowsOfNote("1  align").second, grid.y(0) + grid.label);
+}
+
+TEST(OverviewImageTest, ANoteNextToALongLabelIsAtTheTopOfItsImage) {
+  const OverviewGrid grid(1, 640, 480, kOverviewWidth);
+  const auto [first, last] = RowsOfNote("12  switch · 36.7° of 90° about the vertical axis");
+  EXPECT_GE(first, grid.y(0) + grid.label);
+  EXPECT_LT(last, grid.y(0) + grid.label + grid.height / 4);
 }
 
 TEST(OverviewImageTest, TheHeadingIsAboveAllImages) {
