@@ -2,20 +2,12 @@
 
 #include <algorithm>
 
+#include "planner/object/rotation.h"
+
 namespace regrasp::gait {
 
-Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
-                          double fraction) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(from.linear())
-                      .slerp(fraction, Eigen::Quaterniond(to.linear()))
-                      .toRotationMatrix();
-  pose.translation() = from.translation() + fraction * (to.translation() - from.translation());
-  return pose;
-}
-
 Keyframe Between(const Keyframe& from, const Keyframe& to, double fraction) {
-  Keyframe frame{Between(from.pose, to.pose, fraction), {}};
+  Keyframe frame{object::PoseBetween(from.pose, to.pose, fraction), {}};
   for (std::size_t i = 0; i < from.configurations.size(); ++i) {
     frame.configurations.emplace_back(from.configurations[i] +
                                       fraction * (to.configurations[i] - from.configurations[i]));

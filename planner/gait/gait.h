@@ -45,8 +45,6 @@ struct Keyframe {
   std::vector<kinematics::JointConfiguration> configurations;  ///< joint configuration [finger]
 };
 
-[[nodiscard]] Eigen::Isometry3d Between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
-                                        double fraction);
 [[nodiscard]] Keyframe Between(const Keyframe& from, const Keyframe& to, double fraction);
 
 /// Grasps at both ends of a gait, as contact numbers; an empty grasp means any grasp.

@@ -16,4 +16,14 @@ Eigen::Quaterniond AligningRotation(const Eigen::Vector3d& from, const Eigen::Ve
   return Eigen::Quaterniond::FromTwoVectors(from, to);
 }
 
+Eigen::Isometry3d PoseBetween(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                              double share) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond(from.linear())
+                      .slerp(share, Eigen::Quaterniond(to.linear()))
+                      .toRotationMatrix();
+  pose.translation() = from.translation() + share * (to.translation() - from.translation());
+  return pose;
+}
+
 }  // namespace regrasp::object

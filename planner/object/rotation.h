@@ -22,4 +22,10 @@ namespace regrasp::object {
 [[nodiscard]] Eigen::Quaterniond AligningRotation(const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to);
 
+/// Return the pose at a share of the motion between two poses: the translation is linear, and the
+/// rotation is the smallest one at constant rate.
+/// @param share  from 0 (`from`) to 1 (`to`).
+[[nodiscard]] Eigen::Isometry3d PoseBetween(const Eigen::Isometry3d& from,
+                                            const Eigen::Isometry3d& to, double share);
+
 }  // namespace regrasp::object

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "planner/base/number.h"
+#include "planner/object/rotation.h"
 #include "render/picture/caption.h"
 #include "report/pictures/object_progress.h"
 
@@ -37,10 +38,7 @@ ViewerContact ContactBetween(const ViewerContact& a, const ViewerContact& b, dou
 
 ViewerSample SampleBetween(const ViewerSample& a, const ViewerSample& b, double share) {
   ViewerSample sample = a;
-  sample.X_WO.linear() = Eigen::Quaterniond(a.X_WO.linear())
-                             .slerp(share, Eigen::Quaterniond(b.X_WO.linear()))
-                             .toRotationMatrix();
-  sample.X_WO.translation() += share * (b.X_WO.translation() - a.X_WO.translation());
+  sample.X_WO = object::PoseBetween(a.X_WO, b.X_WO, share);
   for (std::size_t i = 0; i < a.joints.size(); ++i) {
     sample.joints[i] += share * (b.joints[i] - a.joints[i]);
   }

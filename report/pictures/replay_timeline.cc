@@ -7,6 +7,7 @@
 #include <set>
 
 #include "planner/base/number.h"
+#include "planner/object/rotation.h"
 
 namespace regrasp::report {
 
@@ -74,15 +75,6 @@ Vector3d Between(const Vector3d& a, const Vector3d& b, double share) {
 Vector3d DirectionBetween(const Vector3d& a, const Vector3d& b, double share) {
   const auto turn = Eigen::Quaterniond::FromTwoVectors(a, b);
   return Eigen::Quaterniond::Identity().slerp(share, turn) * a;
-}
-
-Isometry3d PoseBetween(const Isometry3d& a, const Isometry3d& b, double share) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(a.linear())
-                      .slerp(share, Eigen::Quaterniond(b.linear()))
-                      .toRotationMatrix();
-  pose.translation() = Between(a.translation(), b.translation(), share);
-  return pose;
 }
 
 /// Return the point of a path at a share of its length.
@@ -189,7 +181,7 @@ class PointTimeline {
         snapshot.fingers, [](const plan::FingerState& state) { return state.path_W.size() > 1; });
     Run(slides ? kSlideTime : kHandOverTime, [&](double share) {
       const double s = Smooth(share);
-      now_.X_WO = PoseBetween(before.X_WO, snapshot.X_WO, s);
+      now_.X_WO = object::PoseBetween(before.X_WO, snapshot.X_WO, s);
       for (std::size_t i = 0; i < after.size(); ++i) {
         const ViewerContact& from = before.contacts[i];
         ViewerContact& contact = now_.contacts[i];

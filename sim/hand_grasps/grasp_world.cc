@@ -12,6 +12,7 @@
 #include "planner/base/error.h"
 #include "planner/base/number.h"
 #include "planner/kinematics/derive_couplings.h"
+#include "planner/object/rotation.h"
 #include "sim/actuation/model_numbers.h"
 #include "sim/actuation/scene_model.h"
 #include "sim/actuation/surface_shell.h"
@@ -353,13 +354,7 @@ void GraspWorld::Command(const HandConfiguration& from, const HandConfiguration&
   for (std::size_t a = 0; a < begin.size(); ++a) {
     data_->ctrl[a] = begin[a] + share * (end[a] - begin[a]);
   }
-  Isometry3d palm = Isometry3d::Identity();
-  palm.translation() =
-      from.palm.translation() + share * (to.palm.translation() - from.palm.translation());
-  palm.linear() = Quaterniond(from.palm.linear())
-                      .slerp(share, Quaterniond(to.palm.linear()))
-                      .toRotationMatrix();
-  SetPose(palm, data_->mocap_pos, data_->mocap_quat);
+  SetPose(object::PoseBetween(from.palm, to.palm, share), data_->mocap_pos, data_->mocap_quat);
 }
 
 void GraspWorld::SetForce(const Vector3d& force) {

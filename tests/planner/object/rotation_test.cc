@@ -41,5 +41,21 @@ TEST(Rotation, AlignsDirections) {
   EXPECT_NEAR(AngleAxisd(back).angle(), std::numbers::pi, 1e-7);
 }
 
+TEST(Rotation, APoseBetweenTwoMovesAtConstantRate) {
+  Eigen::Isometry3d from = Eigen::Isometry3d::Identity(), to = from;
+  from.linear() = kFrom;
+  to.linear() = kTo;
+  from.translation() = Vector3d(1, 2, 3);
+  to.translation() = Vector3d(3, -2, 3);
+  EXPECT_TRUE(PoseBetween(from, to, 0).isApprox(from, 1e-12));
+  EXPECT_TRUE(PoseBetween(from, to, 1).isApprox(to, 1e-12));
+  const Eigen::Isometry3d between = PoseBetween(from, to, 0.25);
+  EXPECT_TRUE(between.translation().isApprox(Vector3d(1.5, 1, 3), 1e-12));
+  const AngleAxisd whole = RotationInBody(kFrom, kTo);
+  const AngleAxisd part = RotationInBody(kFrom, between.linear());
+  EXPECT_NEAR(part.angle(), 0.25 * whole.angle(), 1e-12);
+  EXPECT_TRUE(part.axis().isApprox(whole.axis(), 1e-9));
+}
+
 }  // namespace rotation_test
 }  // namespace regrasp::object
