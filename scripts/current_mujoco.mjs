@@ -37,6 +37,9 @@ for (const file of fs.readdirSync('scene')) {
   mujoco.FS.writeFile(`/scene/${file}`, fs.readFileSync(`scene/${file}`));
 }
 const model = mujoco.MjModel.mj_loadXML('/scene/scene.xml');
+// Contact forces follow from the inertia with implicit damping, as in the replay
+// (sim/scene/damped_step.h). With the other integrators, fingertips of light, damped links slip.
+model.opt.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE.value;
 const data = new mujoco.MjData(model);
 const FREE = 0;
 const joint = Array.from(model.jnt_type).indexOf(FREE);
