@@ -69,14 +69,20 @@ std::string Grid(const ScatterPlot& plot, const Axes& axes) {
   return svg;
 }
 
+/// Return the legend in one or more rows. The fonts of browsers differ in width.
 std::string Legend(const ScatterPlot& plot) {
+  constexpr double kWidestLetter = 7.2, kMark = 14, kGap = 20, kRow = 18;
   std::string svg;
-  double x = kLeft;
+  double x = kLeft, y = 14;
   for (const ScatterPlot::Series& series : plot.series) {
-    svg += "<circle cx=\"" + Number(x + 5) + "\" cy=\"24\" r=\"4\" fill=\"" + series.color +
-           "\"/>\n" + Text(x + 14, 28, series.name, "");
-    constexpr double kLetter = 6.3;
-    x += 34 + kLetter * static_cast<double>(series.name.size());
+    const double width = kMark + kWidestLetter * static_cast<double>(series.name.size());
+    if (x > kLeft && x + width > kWidth) {
+      x = kLeft;
+      y += kRow;
+    }
+    svg += "<circle cx=\"" + Number(x + 5) + "\" cy=\"" + Number(y) + "\" r=\"4\" fill=\"" +
+           series.color + "\"/>\n" + Text(x + kMark, y + 4, series.name, "");
+    x += width + kGap;
   }
   return svg;
 }
