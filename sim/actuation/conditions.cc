@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <set>
+#include <string>
 
 #include "planner/base/number.h"
 #include "planner/plan/json_reader.h"
@@ -18,6 +20,10 @@ constexpr double kMostError_mm = 1000;
 constexpr double kMostError_deg = 180;
 constexpr double kMostFactor = 100;
 constexpr double kMostDelay_s = 10;
+
+/// Largest number of conditions of a file: each one is a replay of the whole plan and a row of the
+/// report.
+constexpr std::size_t kMostConditions = 1000;
 
 /// Return a number in [lower, upper].
 double Bounded(const JsonReader& json, double lower, double upper) {
@@ -169,6 +175,10 @@ std::vector<HandCondition> ReadConditions(std::string_view text, const std::stri
   std::set<std::string> names;
   const std::vector<JsonReader> elements = reader.Elements();
   if (elements.empty()) reader.Fail("expected at least one condition, found an empty array");
+  if (elements.size() > kMostConditions) {
+    reader.Fail("expected at most " + std::to_string(kMostConditions) + " conditions, found " +
+                std::to_string(elements.size()));
+  }
   for (std::size_t i = 0; i < elements.size(); ++i) {
     HandCondition& condition = conditions.emplace_back();
     condition.name = ReadConditionName(elements[i], names);

@@ -90,6 +90,18 @@ TEST(ConditionsTest, InvalidFilesAreRefusedWithThePlaceOfTheFault) {
               HasSubstr("/0/start_shift_mm/2: expected a number from -1000 to 1000"));
 }
 
+TEST(ConditionsTest, TheNumberOfConditionsIsLimited) {
+  const auto of_size = [](int size) {
+    std::string text;
+    for (int i = 0; i < size; ++i) {
+      text += (i == 0 ? "[" : ",") + (R"({"name": ")" + std::to_string(i) + R"("})");
+    }
+    return text + "]";
+  };
+  EXPECT_EQ(Refusal(of_size(1000)), "");
+  EXPECT_EQ(Refusal(of_size(1001)), "c.json: expected at most 1000 conditions, found 1001");
+}
+
 TEST(ConditionsTest, EveryStandardConditionChangesTheReplayAndHasAName) {
   std::set<std::string> names;
   for (const HandCondition& condition : StandardConditions()) {
