@@ -30,6 +30,40 @@ std::string TokenText(const std::string& token) {
   return token;
 }
 
+/// Longest number in messages.
+constexpr std::size_t kLongestNumber = 60;
+
+/// Return the place of the first number with this text, outside strings.
+/// @returns "line 1, column 2", the place of its first character
+std::string PlaceOfNumber(std::string_view text, std::string_view number) {
+  std::size_t line = 1, line_begin = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') {
+      while (++i < text.size() && text[i] != '"') i += text[i] == '\\' ? 1 : 0;
+    } else if (text[i] == '\n') {
+      ++line;
+      line_begin = i + 1;
+    } else if (text[i] == '-' || (text[i] >= '0' && text[i] <= '9')) {
+      const std::size_t end = std::min(text.find_first_not_of("0123456789+-.eE", i), text.size());
+      if (text.substr(i, end - i) == number) {
+        return "line " + std::to_string(line) + ", column " + std::to_string(i - line_begin + 1);
+      }
+      i = end - 1;
+    }
+  }
+  return "";
+}
+
+/// Reword the parser's error of a number that is not finite as a double. It has no place.
+/// @param problem  "number overflow parsing 'NUMBER'"
+std::string OverflowText(std::string_view text, std::string problem) {
+  std::string number = CutAfter(problem, "parsing '");
+  CutAfter(number, "'");
+  const std::string place = PlaceOfNumber(text, number);
+  if (number.size() > kLongestNumber) number = number.substr(0, kLongestNumber) + "...";
+  return (place.empty() ? "" : place + ": ") + "number too large, found " + number;
+}
+
 /// Reword an error of the parser.
 /// @param text  "parse error at line 1, column 2: syntax error while parsing value - PROBLEM",
 ///     followed by the token that was read last, or by the token that is expected, or both.
@@ -103,7 +137,10 @@ Json ParseJson(std::string_view text, const std::string& name) {
     // The message quotes the last token, including invalid UTF-8 and the delete character.
     std::ranges::replace_if(
         what, [](char c) { return static_cast<unsigned char>(c) >= 0x7f; }, '?');
-    throw InputError(name + ": " + SyntaxErrorText(what));
+    constexpr int kNumberOverflow = 406;
+    throw InputError(
+        name + ": " +
+        (error.id == kNumberOverflow ? OverflowText(text, what) : SyntaxErrorText(what)));
   }
 }
 
