@@ -104,7 +104,7 @@ void AddFeedback(CLI::App& app, ValidateOptions& options) {
       .Key("bias-deg", DegreesParser(sensing.pose_bias_rad))
       .AddTo(app, "pose|none[,KEY=VALUE,…]",
              "Measured object pose in the hand replay [default: pose]\n"
-             "pose: a camera; none: joints and touch only\n"
+             "pose: a camera; none: joints and touch only, without settings\n"
              "delay=S: age of a measured pose [default: 0.05]\n"
              "rate=HZ: measured poses per second [default: 30]\n"
              "noise-mm=MM, noise-deg=DEG: standard deviations per axis [default: 0.3, 0.3]\n"
@@ -212,6 +212,21 @@ void CheckResponse(const ValidateOptions& options) {
   }
 }
 
+/// Check that no setting of a measured pose is given without such a pose.
+/// @throws InputError  if one is given, or both kinds of feedback.
+void CheckFeedback(const ValidateOptions& options) {
+  if (options.settings.contains("--feedback pose") &&
+      options.settings.contains("--feedback none")) {
+    throw InputError("--feedback: found pose and none, expected one of them");
+  }
+  if (options.sensing.feedback == sim::PoseFeedback::kPose) return;
+  for (const char* key : {"delay", "rate", "noise-mm", "noise-deg", "bias-mm", "bias-deg"}) {
+    if (options.settings.contains(std::string("--feedback ") + key)) {
+      throw InputError(std::string("--feedback ") + key + ": cannot be used with --feedback none");
+    }
+  }
+}
+
 void CheckReplay(ValidateOptions& options, const CLI::App& app) {
   if (!options.settings.contains("--replay points") &&
       !options.settings.contains("--replay hand")) {
@@ -234,6 +249,7 @@ void CheckReplay(ValidateOptions& options, const CLI::App& app) {
     if (options.replay.engine == sim::EngineChoice::kOde) {
       options.Refuse(app, {"--trajectory", "--export-mjcf"}, "requires --engine mujoco or both");
     }
+    CheckFeedback(options);
     options.trials.joint_noise = Radians(options.joint_noise_deg);
     return;
   }
