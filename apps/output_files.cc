@@ -124,7 +124,22 @@ void OutputFiles::Add(const std::string& option, const std::string& path) {
   if (!path.empty()) files.push_back({option, path});
 }
 
+namespace {
+
+/// @throws InputError  if an output is named - (standard output), which only some options support.
+void RefuseStandardOutput(const OutputFiles& outputs) {
+  const auto refuse = [](const std::string& option, const fs::path& path, const char* expected) {
+    if (path != "-") return;
+    throw InputError(option + ": - (standard output) is not supported, expected a " + expected);
+  };
+  for (const NamedFile& file : outputs.files) refuse(file.option, file.path, "file");
+  for (const OutputFolder& folder : outputs.folders) refuse(folder.option, folder.path, "folder");
+}
+
+}  // namespace
+
 void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles& outputs) {
+  RefuseStandardOutput(outputs);
   KnownFiles known(inputs);
   for (const NamedFile& file : outputs.files) known.AddOutput(file);
   for (const OutputFolder& folder : outputs.folders) known.AddFolder(folder);

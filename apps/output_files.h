@@ -34,6 +34,7 @@ struct OutputFiles {
 };
 
 /// Check that no output is an input, and that no two outputs are the same file.
+/// An output must not be named - either. An option that supports standard output does not add it.
 /// Existing files are the same if device and inode are equal, for any path, link or hard link.
 /// Files that do not exist yet are the same if their paths are equal after links are resolved. In a
 /// folder, every file that it `takes` counts. Files that are not regular (/dev/null, a pipe) may be
@@ -43,7 +44,8 @@ struct OutputFiles {
 /// function before anything is written or removed.
 /// @param inputs  files to read. Folders and files that do not exist are ignored. The model and the
 ///     meshes of the hand file of `--hand` are inputs too.
-/// @throws InputError  if two files are the same; the message names the file and both options.
+/// @throws InputError  if two files are the same; the message names the file and both options. Also
+///     if an output is named -; the message names the option.
 void CheckOutputsDiffer(const std::vector<NamedFile>& inputs, const OutputFiles& outputs);
 
 /// Check that every output can be written, before the work begins.

@@ -143,6 +143,13 @@ class PlanLines {
 
  private:
   void CheckOutput() const {
+    std::error_code error;
+    const bool other = std::filesystem::exists(program_.output, error) &&
+                       !std::filesystem::is_regular_file(program_.output, error);
+    if (program_.output == "-" || other) {
+      throw InputError(
+          "--output: with --batch must be a file, because an interrupted run continues it");
+    }
     OutputFiles outputs;
     outputs.Add("--output", program_.output);
     outputs.Add("--output", program_.output + kPartEnding);
@@ -152,13 +159,6 @@ class PlanLines {
                         {"--goal", FileOfEnd(program_.goal.value)},
                         {"--hand", program_.hand.hand}},
                        outputs);
-    std::error_code error;
-    const bool other = std::filesystem::exists(program_.output, error) &&
-                       !std::filesystem::is_regular_file(program_.output, error);
-    if (program_.output == "-" || other) {
-      throw InputError(
-          "--output: with --batch must be a file, because an interrupted run continues it");
-    }
     CheckOutputsWritable(outputs);
   }
 

@@ -127,6 +127,17 @@ TEST_F(OutputFilesTest, WhatCannotBeWrittenIsFoundAndNothingIsLeft) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out"), fs::directory_iterator()), 1);
 }
 
+TEST_F(OutputFilesTest, StandardOutputIsNeitherAFileNorAFolder) {
+  OutputFiles file;
+  file.Add("--first", "-");
+  EXPECT_EQ(WhyNot("plan", file), "--first: - (standard output) is not supported, expected a file");
+  OutputFiles folder;
+  folder.folders.push_back({"--output", "-", [](const std::string&) { return true; }});
+  EXPECT_EQ(WhyNot("plan", folder),
+            "--output: - (standard output) is not supported, expected a folder");
+  EXPECT_EQ(WhyNot("plan", Files("-")), "");
+}
+
 TEST_F(OutputFilesTest, AFileMayGoIntoAFolderThatWillBeMade) {
   EXPECT_EQ(WhyNotWritable(AndFolder(Files("new/file"), "new")), "");
   EXPECT_EQ(WhyNotWritable(AndFolder(Files("new/file"), "new/below")), "");

@@ -147,6 +147,14 @@ class Outputs(ProgramCase):
                              "--export-mjcf", "result/003_align.png")
         self.assert_done(*plan, "--junit", "result/junit.xml", program="validate")
 
+    def test_standard_output_is_refused_for_files_that_cannot_go_there(self):
+        self.make_inputs()
+        plan = ["--object", "square.wkt", "--plan", "plan.json", "--frames", "none"]
+        for option in ("--junit", "--trajectory", "--export-mjcf", "--output"):
+            self.assert_unharmed(f"{option}: - (standard output) is not supported", "validate", *plan, option, "-")
+            self.assertFalse(os.path.exists(self.path("-")))
+        self.assert_done(*plan, "--json", "-", program="validate")
+
     # Unwritable outputs are detected first.
 
     def test_an_empty_value_as_of_an_undefined_variable_is_refused(self):
