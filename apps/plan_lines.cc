@@ -61,6 +61,20 @@ double ReadPositive(const plan::JsonReader& value, bool or_zero) {
              value.Quoted());
 }
 
+/// Refuse members with the name of an option that changes plans, such as `turn`, except some.
+/// Such a member would have no effect.
+void RefuseOptions(const plan::JsonReader& reader, const Json& object,
+                   const std::vector<std::string>& options,
+                   const std::vector<std::string>& except) {
+  for (const auto& [name, value] : object.items()) {
+    std::string option = "--" + name;
+    std::ranges::replace(option, '_', '-');
+    if (std::ranges::find(except, name) != except.end()) continue;
+    if (std::ranges::find(options, option) == options.end()) continue;
+    reader.Fail("unknown member " + name + ": a query cannot have the option " + option);
+  }
+}
+
 /// Refuse members whose names are similar to known ones.
 /// Members with other names are accepted as the user's own data.
 void RefuseMisspelt(const plan::JsonReader& reader, const Json& object,
@@ -76,8 +90,10 @@ Query ReadQuery(const Line& line, const PlanProgram& program) {
   const Json json = ParseJson(line.text, line.name);
   const plan::JsonReader root(json, line.name);
   if (!json.is_object()) root.Fail("expected a JSON object, found " + root.Quoted());
-  RefuseMisspelt(root, json,
-                 {"object", "friction", "scale", "seed", "min_quality", "start", "goal"});
+  const std::vector<std::string> members = {"object",      "friction", "scale", "seed",
+                                            "min_quality", "start",    "goal"};
+  RefuseOptions(root, json, program.options_of_plans, members);
+  RefuseMisspelt(root, json, members);
   Query query{"", "", program};
   if (root.Has("object")) {
     const plan::JsonReader object = root.Member("object");

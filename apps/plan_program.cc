@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "apps/help.h"
@@ -349,8 +351,14 @@ void PlanProgram::Finish(const CLI::App& app) {
   for (const char* name : {"--goals", "--continue"}) {
     if (app.count(name) > 0) throw InputError(std::string(name) + ": cannot be used with --batch");
   }
-  given = GivenOptions(app, {"--help", "--version", "--object", "--start", "--goal", "--hand",
-                             "--output", "--batch", "--shard", "--jobs", "--restart", "--quiet"});
+  const std::set<std::string> change_nothing = {"--help",  "--version", "--object",  "--start",
+                                                "--goal",  "--hand",    "--output",  "--batch",
+                                                "--shard", "--jobs",    "--restart", "--quiet"};
+  given = GivenOptions(app, change_nothing);
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (!change_nothing.contains(name) || name == "--hand") options_of_plans.push_back(name);
+  }
 }
 
 }  // namespace regrasp::apps

@@ -71,6 +71,8 @@ struct PlanProgram {
   bool fresh = false;  ///< whether to discard the results of an earlier run
   /// Options of the command line that change results, each with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> given;
+  /// Names of all options that change plans, given or not. Set by Finish with --batch.
+  std::vector<std::string> options_of_plans;
   /// Function that is called once, when the search for a hand's plan begins.
   /// The input has been checked by then.
   std::function<void()> on_search = [] {};
