@@ -35,6 +35,8 @@ double ReadToleranceAngle(const JsonReader& json) {
 Eigen::Vector3d ReadDirection(const JsonReader& json, const std::optional<Eigen::Vector3d>& up) {
   if (json.IsString()) {
     if (const auto direction = DirectionOfName(json.String(), up)) return *direction;
+  }
+  if (!json.IsArray()) {
     json.Fail(std::string("expected 3 numbers, or x, y or z with an optional sign") +
               (up ? ", up or down" : "") + ", found " + json.Quoted());
   }

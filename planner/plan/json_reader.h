@@ -29,6 +29,7 @@ class JsonReader {
   [[nodiscard]] bool Has(const char* key) const { return value_.contains(key); }
   [[nodiscard]] bool IsNull() const { return value_.is_null(); }
   [[nodiscard]] bool IsString() const { return value_.is_string(); }
+  [[nodiscard]] bool IsArray() const { return value_.is_array(); }
   /// Require an object without members of other names.
   void ExpectOnly(std::initializer_list<std::string_view> names) const;
   /// Return the member `key` of an object, which is required.

@@ -168,6 +168,12 @@ TEST(GoalSetTest, BadGoalsAreReported) {
   EXPECT_THAT(ErrorOf(facing("[0, 0, 0]", R"("up")", "30")), testing::HasSubstr("zero vector"));
   EXPECT_THAT(ErrorOf(facing(R"("up")", R"("up")", "30")),
               testing::HasSubstr("/facing/axis: expected 3 numbers"));
+  EXPECT_EQ(ErrorOf(facing("null", R"("up")", "30")),
+            "goals: /facing/axis: expected 3 numbers, or x, y or z with an optional sign, "
+            "found null");
+  EXPECT_EQ(ErrorOf(facing(R"("+y")", "7", "30")),
+            "goals: /facing/direction: expected 3 numbers, or x, y or z with an optional sign, "
+            "up or down, found 7");
   EXPECT_THAT(ErrorOf(facing(R"("+y")", R"("left")", "30")), testing::HasSubstr("up or down"));
   EXPECT_THAT(ErrorOf(facing(R"("+y")", R"("up")", "-1")), testing::HasSubstr("must be between"));
   EXPECT_THAT(ErrorOf(facing(R"("+y")", R"("up")", "NaN")), testing::HasSubstr("goals"));
