@@ -139,15 +139,35 @@ std::vector<NamedGoal> ReadGoalList(const std::filesystem::path& path, const Eig
   return ParseGoalList(ReadFile(path), path.string(), up);
 }
 
+namespace {
+
+/// Require vectors in a facing goal. Only a file of goals may have names of directions.
+void ExpectVectors(const JsonReader& facing) {
+  for (const char* key : {"axis", "direction"}) {
+    const JsonReader vector = facing.Member(key);
+    if (!vector.IsArray()) vector.Fail("expected 3 numbers, found " + vector.Quoted());
+  }
+}
+
+}  // namespace
+
 std::vector<GoalMark> ReadGoalMarks(const JsonReader& json) {
+  const std::vector<JsonReader> elements = json.Elements();
+  if (elements.empty()) json.Fail("must not be empty");
   std::vector<GoalMark> marks;
-  for (const JsonReader& element : json.Elements()) {
+  std::set<std::string> names;
+  for (const JsonReader& element : elements) {
+    if (element.Has("facing")) ExpectVectors(element.Member("facing"));
     GoalMark mark{element.Has("name") ? element.Member("name").Name() : "",
                   element.Member("step").Integer(0, std::numeric_limits<int>::max()),
                   ReadGoalSet(element, std::nullopt)};
     if (!marks.empty() && mark.step < marks.back().step) {
       element.Member("step").Fail("must not be less than the step of the previous goal, " +
                                   std::to_string(marks.back().step));
+    }
+    if (!mark.name.empty() && !names.insert(mark.name).second) {
+      const JsonReader name = element.Member("name");
+      name.Fail("must be unique, found " + name.Quoted() + " again");
     }
     marks.push_back(std::move(mark));
   }

@@ -51,7 +51,8 @@ inline constexpr std::size_t kMostGoals = 1000;
                                                    const Eigen::Vector3d& up);
 
 /// Read the goals of a plan file.
-/// @throws InputError  if a value does not match the schema, or the steps decrease.
+/// @throws InputError  if a value does not match the schema, the steps decrease, or two goals have
+///     the same name.
 [[nodiscard]] std::vector<GoalMark> ReadGoalMarks(const JsonReader& json);
 [[nodiscard]] Json GoalMarksJson(const std::vector<GoalMark>& marks);
 

@@ -84,6 +84,22 @@ class HandInputs(ProgramCase):
             self.assert_refused(2, ["edited.json: step 1 fails the hand check", words],
                                 *self.turn(10, "--continue", "edited.json", output="more.json"))
 
+    def test_a_plan_file_that_its_schema_refuses_is_refused_in_one_line(self):
+        goal = {"step": 1, "facing": {"axis": [0, 0, 1], "direction": [0, 0, 1], "tolerance_deg": 180}}
+        self.assert_done(*self.turn(10))
+        plan = json.loads(self.read("plan.json"))
+        hand = plan["hand"]
+
+        def check(words, **changes):
+            self.write_json("edited.json", {**plan, **changes})
+            self.assert_refused(2, ["edited.json: " + words], *self.replay("edited.json"), program="validate")
+
+        check("/hand/goals: must not be empty", hand={**hand, "goals": []})
+        named = {**goal, "facing": {**goal["facing"], "axis": "z"}}
+        check('/hand/goals/0/facing/axis: expected 3 numbers, found "z"', hand={**hand, "goals": [named]})
+        twice = [{**goal, "name": "a"}, {**goal, "name": "a"}]
+        check('/hand/goals/1/name: must be unique, found "a" again', hand={**hand, "goals": twice})
+
     def test_an_object_in_the_palm_is_refused(self):
         inside, above = "0,0,0.01,1,0,0,0", "0,0,0.1,1,0,0,0"
         for option, poses in (("start pose", ("--turn", "z,10", "--start-pose", inside)),

@@ -183,5 +183,44 @@ TEST(GoalSetTest, BadGoalsAreReported) {
   EXPECT_THAT(ErrorOf("{}"), testing::HasSubstr("either \"facing\" or \"pose\""));
 }
 
+std::string ErrorOfMarks(const std::string& text) {
+  try {
+    const Json json = ParseJson(text, "plan");
+    static_cast<void>(ReadGoalMarks(JsonReader(json, "plan", "/goals")));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GoalMarksTest, AListWithoutGoalsIsRefused) {
+  EXPECT_EQ(ErrorOfMarks("[]"), "plan: /goals: must not be empty");
+}
+
+TEST(GoalMarksTest, OnlyVectorsAreDirections) {
+  const auto facing = [](const std::string& axis, const std::string& direction) {
+    return R"([{"step": 0, "facing": {"axis": )" + axis + R"(, "direction": )" + direction +
+           R"(, "tolerance_deg": 30}}])";
+  };
+  EXPECT_EQ(ErrorOfMarks(facing("[1, 0, 0]", "[0, 0, 2]")), "");
+  EXPECT_EQ(ErrorOfMarks(facing(R"("x")", "[0, 0, 1]")),
+            "plan: /goals/0/facing/axis: expected 3 numbers, found \"x\"");
+  EXPECT_EQ(ErrorOfMarks(facing("[1, 0, 0]", R"("+z")")),
+            "plan: /goals/0/facing/direction: expected 3 numbers, found \"+z\"");
+  EXPECT_EQ(ErrorOfMarks(facing("null", "[0, 0, 1]")),
+            "plan: /goals/0/facing/axis: expected 3 numbers, found null");
+}
+
+TEST(GoalMarksTest, NamesAreUnique) {
+  const auto goals = [](const std::string& first, const std::string& second) {
+    const std::string pose = R"("pose": {"position": [0, 0, 0], "quaternion": [1, 0, 0, 0]}})";
+    return "[{" + first + R"("step": 0, )" + pose + ", {" + second + R"("step": 1, )" + pose + "]";
+  };
+  EXPECT_EQ(ErrorOfMarks(goals("", "")), "");
+  EXPECT_EQ(ErrorOfMarks(goals(R"("name": "a", )", R"("name": "b", )")), "");
+  EXPECT_EQ(ErrorOfMarks(goals(R"("name": "a", )", R"("name": "a", )")),
+            "plan: /goals/1/name: must be unique, found \"a\" again");
+}
+
 }  // namespace goal_set_test
 }  // namespace regrasp::plan
