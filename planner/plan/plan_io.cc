@@ -35,6 +35,14 @@ void ExpectOneAFinger(const JsonReader& json, const char* what, std::size_t foun
             std::to_string(found));
 }
 
+/// Read the hand of a plan. The check of the hand rejects later states with other fingers.
+HandUse ReadHand(const JsonReader& json, int fingers) {
+  HandUse hand = ReadHandUse(json);
+  ExpectOneAFinger(json.Member("initial").Member("joints"), "lists of joint angles",
+                   hand.initial.joints.size(), static_cast<std::size_t>(fingers));
+  return hand;
+}
+
 /// Require a torque per finger if a piece has any torques.
 void ExpectTorques(const JsonReader& piece, const motion::MotionSegment& read,
                    std::size_t fingers) {
@@ -298,7 +306,7 @@ Plan ParsePlan(std::string_view text, const std::string& name) {
     plan.patch_radius = ReadPatchRadius(root.Member("patch_radius"), plan);
   if (root.Has("contacts")) plan.at_given_points = ReadContactPlaces(root.Member("contacts"), plan);
   if (root.Has("roadmap")) plan.roadmap = ReadRoadmapNote(root.Member("roadmap"));
-  if (root.Has("hand")) plan.hand = ReadHandUse(root.Member("hand"));
+  if (root.Has("hand")) plan.hand = ReadHand(root.Member("hand"), plan.fingers);
   plan.initial = ReadFingerGrasp(root.Member("initial").Member("contacts"), plan.dimension);
   for (const JsonReader& step : root.Member("steps").Elements()) {
     plan.steps.push_back(ReadStep(step, plan.dimension));

@@ -99,6 +99,7 @@ class HandInputs(ProgramCase):
         check('/hand/goals/0/facing/axis: expected 3 numbers, found "z"', hand={**hand, "goals": [named]})
         twice = [{**goal, "name": "a"}, {**goal, "name": "a"}]
         check('/hand/goals/1/name: must be unique, found "a" again', hand={**hand, "goals": twice})
+        check("/hand/initial/joints: expected 5 lists of joint angles, one per finger, found 4", fingers=5)
 
     def test_an_object_in_the_palm_is_refused(self):
         inside, above = "0,0,0.01,1,0,0,0", "0,0,0.1,1,0,0,0"

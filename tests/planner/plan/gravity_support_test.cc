@@ -49,6 +49,7 @@ struct CarriedCube {
     }
     plan.goal = ContactsOf(plan.initial);
     plan.hand = HandUse{"table", "table.json", std::string(64, '0'), {}};
+    plan.hand->initial.joints.resize(static_cast<std::size_t>(plan.fingers));
     plan.hand->up = Vector3d::UnitZ();
     plan.hand->gravity_support = GravitySupport();
   }

@@ -301,6 +301,24 @@ TEST(PlanIo, NamesFileElementAndValueOfWhatIsWrong) {
             "plan.json: /initial/contacts/1: member \"normal\" not found");
 }
 
+TEST(PlanIo, TheHandHasJointsOfEachFinger) {
+  const HandState state{Eigen::Isometry3d::Identity(), {{0.1}, {0.2}, {0.3}, {0.4}, {0.5}}};
+  Plan plan = CubePlan();
+  plan.hand = HandUse{"hand", "hand.json", std::string(64, '0'), state, state.pose};
+  const Json good = Json::parse(FormatPlan(plan));
+  ASSERT_EQ(Complaint(good.dump()), "");
+  Json more = good;
+  more["fingers"] = 6;
+  EXPECT_EQ(Complaint(more.dump()),
+            "plan.json: /hand/initial/joints: expected 6 lists of joint angles, one per finger, "
+            "found 5");
+  Json fewer = good;
+  fewer["hand"]["initial"]["joints"].erase(4);
+  EXPECT_EQ(Complaint(fewer.dump()),
+            "plan.json: /hand/initial/joints: expected 5 lists of joint angles, one per finger, "
+            "found 4");
+}
+
 TEST(PlanIo, LeavesFingersToTheChecker) {
   Json json = Json::parse(FormatPlan(CubePlan()));
   json["initial"]["contacts"][0]["finger"] = 77;
