@@ -1,6 +1,7 @@
 #include "planner/repair/repair_pipeline.h"
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "planner/object/mesh_survey.h"
 #include "planner/object/polygon_soup.h"
 #include "planner/object/polyhedron.h"
+#include "planner/object/weld.h"
 #include "planner/repair/comparison.h"
 #include "planner/repair/repair.h"
 #include "planner/repair/stages.h"
@@ -37,6 +39,23 @@ bool Applies(std::string_view stage, const PolygonSoup& soup) {
   if (stage == "unite-shells") return CountShells(soup) > 1;
   if (stage == "arrange") return !HasOpenEdges(soup);
   return true;
+}
+
+/// Merge vertices with equal coordinates: STL lists each vertex once per triangle. Polygons without
+/// area are then dropped. A soup with different vertices is unchanged.
+PolygonSoup Merged(const PolygonSoup& soup, const std::string& name) {
+  object::WeldedSoup welded = object::WeldVertices(soup, name);
+  if (welded.vertices.size() == soup.vertices.size()) return soup;
+  PolygonSoup merged = soup;
+  merged.vertices = std::move(welded.vertices);
+  merged.facets.clear();
+  merged.filled.clear();
+  for (std::size_t f = 0; f < welded.facets.size(); ++f) {
+    if (welded.facets[f].empty()) continue;
+    merged.facets.push_back(std::move(welded.facets[f]));
+    if (!soup.filled.empty()) merged.filled.push_back(soup.filled[f]);
+  }
+  return merged;
 }
 
 class RepairPipeline {
@@ -92,8 +111,8 @@ class RepairPipeline {
     last().stage = "read";
     last().facets = soup_.facets.size();
     if (!Passes(JudgeSurface(soup_, reading_))) return false;
-    result_.solid = soup_;              // keeps the marks of an earlier repair
-    result_.comparison.seen_share = 1;  // all differences are zero
+    result_.solid = Merged(soup_, name_);  // keeps the marks of an earlier repair
+    result_.comparison.seen_share = 1;     // all differences are zero
     return true;
   }
 
@@ -185,19 +204,25 @@ class RepairPipeline {
 
   bool MakesCoarser() {
     if (!options_.facets || std::ssize(result_.solid->facets) <= *options_.facets) return true;
-    if (original_.soup.facets.empty()) {  // the file is a solid: triangulate it for the comparison
+    if (original_.soup.facets.empty()) {  // the file is a solid: only its triangles are required
       if (!Cleans()) return false;
       result_.attempt.stages.pop_back();
-      const auto is_triangle = [](const auto& facet) { return facet.size() == 3; };
-      if (!std::ranges::all_of(result_.solid->facets, is_triangle)) {
-        result_.solid = original_.soup;
-      }
+      result_.solid = original_.soup;
+    }
+    if (HasOpenEdges(*result_.solid)) {  // the reader closes gaps of the size of rounding errors
+      auto closed = Run("fill-holes", [&] { return FillHoles(*result_.solid); });
+      if (!closed || !Accepts(*std::move(closed))) return false;
     }
     PolygonSoup fine = *result_.solid;
     MarkFilled(soup_, result_.comparison, fine);
     const auto coarse = Run("simplify", [&] { return Simplify(fine, *options_.facets); });
     if (!coarse) return false;
-    if (Accepts(*coarse, &fine)) return true;
+    if (std::ssize(coarse->facets) > *options_.facets) {
+      last().outcome = "at most " + std::to_string(*options_.facets) + " triangles expected, " +
+                       std::to_string(coarse->facets.size()) + " remain";
+    } else if (Accepts(*coarse, &fine)) {
+      return true;
+    }
     last().outcome += "; help: use a larger --repair max-triangles";
     return false;
   }

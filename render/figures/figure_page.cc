@@ -404,8 +404,9 @@ void EnlargeCovered(std::span<FingerMarker> markers) {
   for (std::size_t i = markers.size(); i-- > 0;) {
     FingerMarker& below = markers[i];
     for (const FingerMarker& above : markers.subspan(i + 1)) {
-      const bool covered = (above.centre - below.centre).norm() < above.reach();
-      if (covered) below.radius = std::max(below.radius, above.reach() + kNestedRim);
+      const double distance = (above.centre - below.centre).norm();
+      if (distance >= above.reach()) continue;
+      below.radius = std::max(below.radius, above.reach() + kNestedRim - distance);
     }
   }
 }

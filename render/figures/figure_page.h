@@ -142,8 +142,8 @@ struct FingerMarker {
   [[nodiscard]] double reach() const;
 };
 
-/// Enlarge markers that others cover by more than half, so that a rim stays visible. Contacts at
-/// one position are drawn nested.
+/// Enlarge markers that others cover by more than half, so that a rim stays visible on the side
+/// away from the covering one. Contacts at one position are drawn nested.
 /// @param markers  markers in drawing order.
 void EnlargeCovered(std::span<FingerMarker> markers);
 

@@ -61,6 +61,8 @@ constexpr Color kHandLine = {92, 88, 84};
 constexpr Color kHandCrease = {138, 133, 126};
 constexpr Color kHiddenHandLine = {150, 146, 140};
 constexpr double kFingertipTint = 0.3;
+/// Distance from the border of the panel at which a cut hand begins to fade, per width or height.
+constexpr double kFade = 0.14;
 /// Opacity of the hand, through which the object is visible.
 constexpr double kHandFillOpacity = 0.84;
 
@@ -124,7 +126,7 @@ bool IsOutlineOfHand(const SurfaceBuffer& all, double step, int x, int y, int x2
 
 /// Return whether the surface of the hand bends sharply between two samples.
 bool IsCreaseOfHand(const SurfaceBuffer& all, float least_cosine, int x, int y, int x2, int y2) {
-  return IsLink(all.LabelAt(x, y)) && IsLink(all.LabelAt(x2, y2)) &&
+  return IsLink(all.LabelAt(x, y)) && all.LabelAt(x, y) == all.LabelAt(x2, y2) &&
          all.NormalAt(x, y).dot(all.NormalAt(x2, y2)) < least_cosine;
 }
 
@@ -161,29 +163,72 @@ std::vector<Polyline> ForPrint(const std::vector<Polyline>& lines, double scale,
 
 }  // namespace
 
+/// Colours that fade out towards sides of the panel that cut the hand. If sides of both directions
+/// cut it, they fade out towards the ellipse in the panel.
+class HandPanels::Fade {
+ public:
+  /// @param image  the panel without its caption and scale bar, points.
+  Fade(const Cuts& cuts, const Eigen::AlignedBox2d& image) : cuts_(cuts), image_(image) {}
+
+  void SetColor(cairo_t* cr, Color color, double opacity = 1) const {
+    const bool across = cuts_.left || cuts_.right, along = cuts_.top || cuts_.bottom;
+    if (!across && !along) return render::SetColor(cr, color, opacity);
+    // The image is the square from −1 to 1 here.
+    cairo_pattern_t* pattern = across && along ? cairo_pattern_create_radial(0, 0, 0, 0, 0, 1)
+                               : across        ? cairo_pattern_create_linear(-1, 0, 1, 0)
+                                               : cairo_pattern_create_linear(0, -1, 0, 1);
+    const Vector2d middle = image_.center(), half = image_.sizes() / 2;
+    cairo_matrix_t matrix;
+    cairo_matrix_init(&matrix, 1 / half.x(), 0, 0, 1 / half.y(), -middle.x() / half.x(),
+                      -middle.y() / half.y());
+    cairo_pattern_set_matrix(pattern, &matrix);
+    const auto add = [&](double at, double share) {
+      constexpr double kMax = 255;
+      cairo_pattern_add_color_stop_rgba(pattern, at, color.r / kMax, color.g / kMax, color.b / kMax,
+                                        share * opacity);
+    };
+    if (across && along) {
+      add(1 - 2 * kFade, 1);
+      add(1, 0);
+    } else {
+      add(0, cuts_.left || cuts_.top ? 0 : 1);
+      add(kFade, 1);
+      add(1 - kFade, 1);
+      add(1, cuts_.right || cuts_.bottom ? 0 : 1);
+    }
+    cairo_set_source(cr, pattern);
+    cairo_pattern_destroy(pattern);
+  }
+
+ private:
+  const Cuts& cuts_;
+  Eigen::AlignedBox2d image_;
+};
+
 /// Lines and areas in pixels of the camera.
 struct HandPanels::Drawing {
   std::vector<std::pair<Color, std::vector<Polyline>>> fills;
   std::vector<Polyline> outlines, creases, hidden;
 
-  void Fill(cairo_t* cr, double scale) const {
+  void Fill(cairo_t* cr, double scale, const Fade& fade) const {
     cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
     for (const auto& [color, areas] : fills) {
       cairo_new_path(cr);
       for (const Polyline& area : ForPrint(areas, scale)) AddOutline(cr, area);
-      render::Fill(cr, color, kHandFillOpacity);
+      fade.SetColor(cr, color, kHandFillOpacity);
+      cairo_fill(cr);
     }
   }
-  void Stroke(cairo_t* cr, double scale) const {
+  void Stroke(cairo_t* cr, double scale, const Fade& fade) const {
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    SetColor(cr, kHiddenHandLine);
+    fade.SetColor(cr, kHiddenHandLine);
     cairo_set_dash(cr, &kHiddenHandDash, 1, 0);
     StrokeLines(cr, ForPrint(hidden, scale, kShortestInPrint), kHiddenHandOutline);
     cairo_set_dash(cr, nullptr, 0, 0);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-    SetColor(cr, kHandCrease);
+    fade.SetColor(cr, kHandCrease);
     StrokeLines(cr, ForPrint(creases, scale, kShortestInPrint), kHandCreaseWidth);
-    SetColor(cr, kHandLine);
+    fade.SetColor(cr, kHandLine);
     StrokeLines(cr, ForPrint(outlines, scale), kHandOutline);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
   }
@@ -219,13 +264,18 @@ void HandPanels::ChooseRows() {
       box.extend(camera_.Project(glyph.end));
     }
   }
+  Eigen::AlignedBox2d drawn;
   for (const Drawing& drawing : drawings_) {
     for (const auto& [color, areas] : drawing.fills) {
       for (const Polyline& area : areas) {
-        for (const Vector2d& p : area) box.extend(p);
+        for (const Vector2d& p : area) drawn.extend(p);
       }
     }
   }
+  constexpr double kBorder = 1;  // camera pixels
+  cuts_ = {drawn.min().x() < kBorder, drawn.max().x() > camera_.width - kBorder,
+           drawn.min().y() < kBorder, drawn.max().y() > camera_.height - kBorder};
+  box.extend(drawn);
   const double margin = kMarginPerWidth * camera_.width;
   top_ = std::clamp(box.min().y() - margin, 0.0, camera_.height / 2.0);
   bottom_ = std::clamp(box.max().y() + margin, camera_.height / 2.0, 1.0 * camera_.height);
@@ -326,7 +376,8 @@ HandPanels::Drawing HandPanels::DrawingOf(const plan::Snapshot& snapshot,
   const double thin_step = kThinDepthStep * placer.per_unit();
   drawing.creases = trace(kShortestCrease, [&](int x, int y, int x2, int y2) {
     return (IsCreaseOfHand(all, least_cosine, x, y, x2, y2) ||
-            IsOutlineOfHand(all, thin_step, x, y, x2, y2)) &&
+            (all.LabelAt(x, y) == all.LabelAt(x2, y2) &&
+             IsOutlineOfHand(all, thin_step, x, y, x2, y2))) &&
            !IsOutlineOfHand(all, step, x, y, x2, y2);
   });
   drawing.hidden = trace(kShortestHidden, [&](int x, int y, int x2, int y2) {
@@ -374,10 +425,11 @@ void HandPanels::Draw(cairo_t* cr, int index, double width, bool scale_bar) cons
   painter.DrawBody();
   painter.DrawVisibleEdges();
   const double scale = width / camera_.width;
+  const Fade fade(cuts_, {Vector2d(0, scale * top_), Vector2d(width, scale * bottom_)});
   cairo_save(cr);
   cairo_translate(cr, 0, -scale * top_);
-  drawings_[index].Fill(cr, scale);
-  drawings_[index].Stroke(cr, scale);
+  drawings_[index].Fill(cr, scale, fade);
+  drawings_[index].Stroke(cr, scale, fade);
   cairo_restore(cr);
   for (const FingerGlyph& glyph : fingers) painter.DrawCone(glyph, model_.friction_angle);
   for (const FingerGlyph& glyph : fingers) painter.DrawMotion(glyph);

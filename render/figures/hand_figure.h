@@ -34,7 +34,8 @@ struct FigureHand {
 /// outlines of the hand behind the solid are dashed. Faces of a solid are tinted by their direction
 /// in its frame (TintByDirection), unless it is a scan. An in-hand motion has the former pose as a
 /// dashed ghost and an arrow of the rotation. Placed and released fingers have arrows. The palm is
-/// fixed, and all panels have one scale and one view. Deterministic.
+/// fixed, and the hand fades out at sides of the panel that cut it. All panels have one scale
+/// and one view. Deterministic.
 class HandPanels final : public FigurePanels {
  public:
   /// Create the panels.
@@ -50,12 +51,17 @@ class HandPanels final : public FigurePanels {
   void Draw(cairo_t* cr, int index, double width, bool scale_bar = true) const override;
 
  private:
+  /// Sides of the panels that cut the hand.
+  struct Cuts {
+    bool left = false, right = false, top = false, bottom = false;
+  };
+  class Fade;
   struct Drawing;  ///< lines and areas of the hand in a panel
 
   [[nodiscard]] Drawing DrawingOf(const plan::Snapshot& snapshot,
                                   const std::vector<ShadedMesh>& meshes, double crease_angle) const;
 
-  /// Choose the rows that show everything.
+  /// Choose the rows that show everything, and find the sides that cut the hand.
   void ChooseRows();
   /// Return the projection to a panel.
   /// @param width  width of the panel, points.
@@ -72,6 +78,7 @@ class HandPanels final : public FigurePanels {
   Camera camera_;
   std::vector<Drawing> drawings_;
   double top_ = 0, bottom_ = 0;  ///< rows of the camera's image that the panels show, pixels
+  Cuts cuts_;
 };
 
 }  // namespace regrasp::render

@@ -475,6 +475,33 @@ TEST(Repair, ACoarserSolidHasNoMoreFacetsThanAskedAndKeepsToTheDeviation) {
   EXPECT_THAT(Refusal(SphereSoup(30), options), HasSubstr("--repair max-deviation"));
 }
 
+/// STL lists each vertex once per triangle.
+TEST(Repair, ACoarserSolidOfAFileWithRepeatedVerticesIsCoarserToo) {
+  const PolygonSoup sphere = SphereSoup(30);
+  PolygonSoup split;
+  for (const std::vector<int>& facet : sphere.facets) {
+    std::vector<int>& copy = split.facets.emplace_back();
+    for (const int vertex : facet) {
+      copy.push_back(static_cast<int>(split.vertices.size()));
+      split.vertices.push_back(sphere.vertices[vertex]);
+    }
+  }
+  RepairOptions options;
+  options.facets = 500;
+  const Repaired coarse = Repair(split, "split", options);
+  EXPECT_LE(coarse.solid.facets.size(), 500u);
+  EXPECT_NEAR(SolidOf(coarse).mass_properties().volume, 4 * std::numbers::pi / 3, 0.1);
+  // Without a limit the solid is that of the file with each vertex once.
+  const Repaired same = Repair(split, "split", {});
+  EXPECT_EQ(same.solid.facets.size(), sphere.facets.size());
+  EXPECT_EQ(same.solid.vertices.size(), sphere.vertices.size());
+  // Vertices that differ by rounding belong together, too.
+  for (std::size_t i = 0; i < split.vertices.size(); ++i) {
+    split.vertices[i].x() += i % 2 == 0 ? 1e-15 : -1e-15;
+  }
+  EXPECT_LE(Repair(split, "split", options).solid.facets.size(), 500u);
+}
+
 TEST(Repair, LengthsScaleWithTheObjectAndSharesStay) {
   PolygonSoup cube = UnitCubeSoup();
   cube.facets.pop_back();

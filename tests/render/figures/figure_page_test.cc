@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "render/figures/panel_sheet.h"
@@ -92,6 +93,16 @@ TEST(FingerMarkerTest, AReleasedFingerIsVisibleBelowAndAboveItsReplacement) {
       const bool hollow = markers[i].style == MarkerStyle::kHollow;
       EXPECT_GT(AreaOf(FingerIndex(i), markers), hollow ? kLeastOutline : kLeastArea) << i << below;
     }
+  }
+}
+
+TEST(FingerMarkerTest, OnesThatAreLessCoveredGrowLess) {
+  double before = std::numeric_limits<double>::infinity();
+  for (const double share : {0.0, 0.3, 0.6, 0.9}) {
+    std::vector<FingerMarker> markers = SideBySide(0, 1, share * kMarkerRadius, /*ring=*/true);
+    EnlargeCovered(markers);
+    EXPECT_LT(markers[0].radius, before) << share;
+    before = markers[0].radius;
   }
 }
 

@@ -126,6 +126,20 @@ TEST(HandFigures, AreDeterministicAndSmall) {
   }
 }
 
+TEST(HandFigures, ALinkThatThePanelCutsFadesOut) {
+  constexpr char kGradient[] = "Gradient id=";
+  const SolidFigureOptions from_front = {.view = ViewDirection{Radians(-90), Radians(10)}};
+  FigureHand hand = MakeHand(MakePlan());
+  EXPECT_FALSE(Has(Svg(MakePanels(hand, from_front), 0), kGradient));
+  HandView view = *hand.view;
+  view[1].mesh = MakeCapsule({0, 0, 0}, {5, 0, 0}, 0.01);  // longer than any panel
+  hand.view = std::make_shared<const HandView>(view);
+  const HandPanels panels = MakePanels(hand, from_front);
+  const std::string svg = Svg(panels, 0);
+  EXPECT_TRUE(Has(svg, kGradient));
+  EXPECT_TRUE(svg == Svg(panels, 0)) << "identifiers of gradients differ";
+}
+
 TEST(HandFigures, PartsBehindTheObjectAreDashed) {
   const FigureHand hand = MakeHand(MakePlan());
   const auto from = [&](double azimuth) {
