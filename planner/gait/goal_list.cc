@@ -111,11 +111,16 @@ class GoalListSearch {
     request.goal = request_.goals[goal].set;
     if (!before.plan) return request;
     const plan::HandEnd end = plan::EndOfPlan(*before.plan);
-    StartFrom(end, request);
-    request.start_grasp.clear();
-    for (const plan::FingerContact& held : end.grasp) {
-      // Contacts that have rolled have no face yet.
-      request.start_grasp.push_back(plan::ProjectContact(*request_.solid, held.contact).contact);
+    if (before.plan->steps.empty() && request_.start_grasp.empty()) {
+      // No step requires the initial grasp that was found for the earlier goals.
+      request.start_pose = end.state.pose;
+    } else {
+      StartFrom(end, request);
+      request.start_grasp.clear();
+      for (const plan::FingerContact& held : end.grasp) {
+        // Contacts that have rolled have no face yet.
+        request.start_grasp.push_back(plan::ProjectContact(*request_.solid, held.contact).contact);
+      }
     }
     if (request.simulate) {
       request.simulate = SimulatorAfter(request_, *before.plan, request_.goals[goal]);
@@ -220,13 +225,15 @@ class GoalListSearch {
 
 plan::Plan Joined(const std::optional<plan::Plan>& before, const plan::Plan& after,
                   const plan::NamedGoal& goal) {
-  plan::Plan plan = before.value_or(after);
-  if (before) {
+  plan::Plan plan = before && !before->steps.empty() ? *before : after;
+  if (!before) {
+    plan.hand->goals.clear();
+  } else if (before->steps.empty()) {
+    plan.hand->goals = before->hand->goals;
+  } else {
     plan.steps.insert(plan.steps.end(), after.steps.begin(), after.steps.end());
     plan.goal = after.goal;
     plan.hand->goal = after.hand->goal;
-  } else {
-    plan.hand->goals.clear();
   }
   plan.hand->goals.push_back({goal.name, static_cast<int>(plan.steps.size()), goal.set});
   return plan;

@@ -18,7 +18,8 @@ struct GoalListResult {
 };
 
 /// Append a plan that starts at the end of another one, for the same hand and object.
-/// Its steps follow, and its goal is marked after the last of them.
+/// Its steps follow, and its goal is marked after the last of them. It replaces a plan without
+/// steps, of which only the pose at the end is that of its start.
 [[nodiscard]] plan::Plan Joined(const std::optional<plan::Plan>& before, const plan::Plan& after,
                                 const plan::NamedGoal& goal);
 
@@ -35,7 +36,8 @@ void EndAt(const plan::HandEnd& end, const plan::PoseTolerance& tolerance,
 /// A depth-first search over end states. For each goal it finds up to three end states, each with a
 /// gait from the end of the previous goal (FindGait). It continues with an end state from which a
 /// short search without simulation reaches the next goal, and tries other ones later. If the next
-/// goal is not reached, it returns to the previous goal and finds another end state.
+/// goal is not reached, it returns to the previous goal and finds another end state. If the first
+/// goals require no step, the initial grasp is selected for the next one.
 /// Every plan is simulated from the initial grasp.
 /// Law: a list with one goal gives the plan of that goal.
 /// @throws std::invalid_argument, InputError  as FindGait.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <stdexcept>
@@ -189,6 +190,43 @@ TEST(GoalListTest, AFailureAfterTheFirstGoalIsCountedFromTheStartOfThePlan) {
   EXPECT_FALSE(found.execution->is_whole);
   ASSERT_GT(found.plan->hand->goals.front().step, 0);
   EXPECT_EQ(found.execution->steps, found.plan->hand->goals.front().step);
+}
+
+bool IsSameGrasp(const plan::FingerGrasp& one, const plan::FingerGrasp& other) {
+  return std::ranges::equal(one, other, [](const auto& a, const auto& b) {
+    return a.finger == b.finger && (a.contact.p - b.contact.p).norm() < 1e-9;
+  });
+}
+
+/// If the first goal requires no step, the initial grasp may be any one from which the second goal
+/// is reached.
+TEST(GoalListTest, AnInitialGraspIsSelectedForTheFirstGoalThatRequiresSteps) {
+  GaitRequest request = QuickRequest();
+  const plan::Plan any = PlanFor(request);
+  request.start_pose = any.hand->initial.pose;
+  const Vector3d up = request.start_pose->linear().transpose() * Ring().up;
+  const plan::GoalSet now(plan::FacingGoal{up, Ring().up, Radians(5)});
+  request.goals = {{"now", now}, {"later", Facing({1, 0, 1}, 30)}};
+  const GoalListResult found = FindPlanThroughGoals(request);
+  ASSERT_TRUE(found.plan) << found.message;
+  const plan::Plan& plan = *found.plan;
+  ASSERT_EQ(plan.hand->goals.size(), 2u);
+  EXPECT_EQ(plan.hand->goals[0].step, 0);
+  EXPECT_EQ(plan.hand->goals[1].step, std::ssize(plan.steps));
+  EXPECT_TRUE(plan::CheckPlan(*request.solid, plan).passed());
+  // The plan is that of the second goal alone.
+  GaitRequest alone = request;
+  alone.goals.erase(alone.goals.begin());
+  const GoalListResult second = FindPlanThroughGoals(alone);
+  ASSERT_TRUE(second.plan) << second.message;
+  EXPECT_TRUE(IsSameGrasp(plan.initial, second.plan->initial));
+  EXPECT_EQ(plan.steps.size(), second.plan->steps.size());
+  // A given initial grasp is kept.
+  StartFrom({any.hand->initial, any.initial}, request);
+  request.start_grasp = plan::ContactsOf(any.initial);
+  const GoalListResult kept = FindPlanThroughGoals(request);
+  ASSERT_TRUE(kept.plan) << kept.message;
+  EXPECT_TRUE(IsSameGrasp(kept.plan->initial, any.initial));
 }
 
 TEST(GoalListTest, AStartStateIsKept) {
