@@ -18,7 +18,8 @@ std::vector<grasp::Contact> ContactsOf(gait::GaitRequest request) {
 
 }  // namespace
 
-GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
+GoodPoses FindGoodPoses(const gait::GaitRequest& request, const planning::Turn& turn,
+                        const Eigen::Vector3d& shift) {
   std::vector<grasp::Contact> contacts = ContactsOf(request);
   const collision::SurfaceTree surface(*request.solid, request.scale);
   const gait::HandScene scene(*request.hand, surface, request.margin);
@@ -32,9 +33,10 @@ GoodPoses FindGoodPoses(const gait::GaitRequest& request) {
     points.push_back({request.scale * contact.p, contact.n});
   }
   const gait::HandSetup setup{scene, inverse, points, request.scale};
-  const gait::ObjectTask nowhere(request.scale * request.solid->mass_properties().centroid, {}, {});
+  const gait::ObjectTask task(request.scale * request.solid->mass_properties().centroid, turn, {},
+                              {}, shift);
   RandomStream random(request.seed, RandomUse::kHomes);
-  auto homes = gait::FindInitialPoses(setup, nowhere, {}, memory, random);
+  auto homes = gait::FindInitialPoses(setup, task, {}, memory, random);
   if (homes.empty()) throw std::runtime_error("the object is nowhere within reach of the fingers");
   return {std::move(homes), std::move(contacts)};
 }

@@ -13,7 +13,10 @@ struct GoodPoses {
 };
 
 /// Find object poses in which the hand reaches the object well: the initial poses of a search.
+/// @param turn, shift  motion throughout which it does (gait::ObjectTask).
 /// @throws std::runtime_error  if no pose is within reach of the fingers.
-[[nodiscard]] GoodPoses FindGoodPoses(const gait::GaitRequest& request);
+[[nodiscard]] GoodPoses FindGoodPoses(const gait::GaitRequest& request,
+                                      const planning::Turn& turn = {},
+                                      const Eigen::Vector3d& shift = Eigen::Vector3d::Zero());
 
 }  // namespace regrasp::bench

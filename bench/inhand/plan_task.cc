@@ -20,27 +20,19 @@
 namespace regrasp::bench {
 namespace {
 
-/// Number of hand poses in which a task that moves the centroid may begin or be half-way.
-constexpr std::size_t kPlaces = 3;
+/// Number of initial poses of a task that moves the centroid.
+constexpr std::size_t kStarts = 6;
 
-/// Return initial poses of a task that moves the centroid.
-/// These are poses with the best reach, and poses from which the object is in such a pose half-way.
+/// Return initial poses of a task that moves the centroid: those with the best reach throughout its
+/// motion.
 std::vector<Eigen::Isometry3d> StartsOf(const planning::InHandTask& in_hand, const HandBody& body,
                                         const Task& task, const criteria::GraspCriteria& criteria) {
   gait::GaitRequest request;
   static_cast<planning::InHandTask&>(request) = in_hand;
   request.solid = &body.solid();
   request.criteria = criteria;
-  Task half = task;
-  half.turn.angle /= 2;
-  half.move_m /= 2;
-  const Eigen::Isometry3d to_half = GoalPose(half, body.centre(), Eigen::Isometry3d::Identity());
-  std::vector<Eigen::Isometry3d> starts;
-  const std::vector<Eigen::Isometry3d> poses = FindGoodPoses(request).poses;
-  for (std::size_t i = 0; i < std::min(kPlaces, poses.size()); ++i) {
-    starts.push_back(poses[i]);
-    starts.push_back(poses[i] * to_half.inverse());
-  }
+  std::vector<Eigen::Isometry3d> starts = FindGoodPoses(request, task.turn, task.move_m).poses;
+  starts.resize(std::min(kStarts, starts.size()));
   return starts;
 }
 

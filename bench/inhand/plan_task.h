@@ -41,7 +41,7 @@ struct PlannedTask {
 /// actuators, and grasps with a quality of
 /// at least 0.01.
 /// @param start    initial state; none: chosen by the planner. A task that moves the centroid
-///     begins in a pose with good reach, or passes such a pose half-way.
+///     begins in a pose with good reach throughout the motion.
 /// @param limit_s  processor time limit, s.
 [[nodiscard]] PlannedTask PlanTask(const kinematics::HandFile& hand, const HandBody& body,
                                    const Task& task, const std::optional<TaskStart>& start,

@@ -66,7 +66,8 @@ PoseTrack ObjectTask::From(const Eigen::Isometry3d& start, int steps) const {
     const double shorter = std::max(0.0, turn_tolerance_->angle - kGoalDepth.angle);
     turn.angle = std::copysign(std::max(0.0, std::abs(turn.angle) - shorter), turn.angle);
   }
-  return {start, centre_, turn, Eigen::Vector3d::Zero(), turn.angle == 0 ? 0 : steps};
+  const bool stays = turn.angle == 0 && shift_.isZero(0);
+  return {start, centre_, turn, start.linear() * shift_, stays ? 0 : steps};
 }
 
 PoseTrack ObjectTask::From(const Eigen::Isometry3d& start) const {

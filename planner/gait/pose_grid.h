@@ -75,10 +75,13 @@ class ObjectTask {
   /// @param turn  rotation; ignored if there is a goal.
   /// @param goal  poses in the palm's frame.
   /// @param turn_tolerance  planning::InHandTask::turn_tolerance.
+  /// @param shift  translation of the centre along the axes of the object at the start, metres, in
+  ///     addition to the turn; ignored if there is a goal.
   ObjectTask(const Eigen::Vector3d& centre, const Turn& turn,
              const std::optional<plan::GoalSet>& goal,
-             const std::optional<plan::PoseTolerance>& turn_tolerance = {})
-      : centre_(centre), turn_(turn), goal_(goal), turn_tolerance_(turn_tolerance) {}
+             const std::optional<plan::PoseTolerance>& turn_tolerance = {},
+             const Eigen::Vector3d& shift = Eigen::Vector3d::Zero())
+      : centre_(centre), turn_(turn), goal_(goal), turn_tolerance_(turn_tolerance), shift_(shift) {}
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   /// Return the turn; its angle is 0 if there is a goal.
@@ -105,6 +108,7 @@ class ObjectTask {
   Turn turn_;
   std::optional<plan::GoalSet> goal_;
   std::optional<plan::PoseTolerance> turn_tolerance_;
+  Eigen::Vector3d shift_;
 };
 
 /// Discrete object poses: those of a track, and offsets from them.
