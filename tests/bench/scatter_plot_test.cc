@@ -25,7 +25,7 @@ ScatterPlot PlotOf(int series, const std::string& name) {
 
 TEST(ScatterPlot, EntriesOfTheLegendAreInsideTheImageAndApart) {
   const std::string name = "a name of thirty-two characters.";
-  constexpr double kNarrowestLetter = 5;
+  constexpr double kNarrowestLetter = 5;  // units of the image, mean width in narrow fonts
   const std::string svg = FormatScatterPlot(PlotOf(5, name));
   const std::regex entry("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\" >" + name);
   double x_before = 0, y_before = -1;

@@ -192,9 +192,11 @@ TEST(GoalListTest, AFailureAfterTheFirstGoalIsCountedFromTheStartOfThePlan) {
   EXPECT_EQ(found.execution->steps, found.plan->hand->goals.front().step);
 }
 
+/// Contacts may differ by rounding, in object units.
 bool IsSameGrasp(const plan::FingerGrasp& one, const plan::FingerGrasp& other) {
+  constexpr double kRounding = 1e-9;
   return std::ranges::equal(one, other, [](const auto& a, const auto& b) {
-    return a.finger == b.finger && (a.contact.p - b.contact.p).norm() < 1e-9;
+    return a.finger == b.finger && (a.contact.p - b.contact.p).norm() < kRounding;
   });
 }
 

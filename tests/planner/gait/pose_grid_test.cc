@@ -111,14 +111,16 @@ TEST(ObjectTaskTest, AShiftIsAlongTheAxesOfTheObjectAtTheStart) {
       Eigen::Translation3d(0.1, 0, 0) * Eigen::AngleAxisd(Radians(90), Vector3d::UnitZ());
   const Vector3d centre(0.01, 0, 0), shift(0.02, 0, 0);
   const planning::Turn turn{Vector3d::UnitX(), Radians(30)};
+  constexpr double kRounding = 1e-12;        // metres
+  constexpr double kRoundingOfAngle = 1e-7;  // radians; the square root of rounding near zero
   for (const bool turns : {true, false}) {
     const ObjectTask task(centre, turns ? turn : planning::Turn{}, {}, {}, shift);
     const PoseTrack track = task.From(start, 4);
     EXPECT_EQ(track.steps(), 4);
     const Eigen::Isometry3d end = track.PoseAt(4);
-    EXPECT_LT((end * centre - start * (centre + shift)).norm(), 1e-12);
+    EXPECT_LT((end * centre - start * (centre + shift)).norm(), kRounding);
     EXPECT_NEAR(Eigen::AngleAxisd(start.linear().transpose() * end.linear()).angle(),
-                turns ? turn.angle : 0, 1e-7);
+                turns ? turn.angle : 0, kRoundingOfAngle);
   }
   EXPECT_EQ(ObjectTask(centre, {}, {}).From(start, 4).steps(), 0);
 }
